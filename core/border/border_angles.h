@@ -1,0 +1,32 @@
+// How much the flat border turns at each of its vertices.
+#pragma once
+
+#include "core/cut/one_rings.h"
+#include "core/cut/region.h"
+
+namespace lastflat {
+
+enum class AngleRule {
+    curvature,           ///< right globally: the conformal map that keeps border lengths
+    averaged_conformal,  ///< the paper's: one ring deep
+};
+
+struct BorderAngles {
+    std::vector<double> turning;  ///< per border vertex, its exterior angle; their sum is 2 pi
+    /// Per border vertex, the angles of its triangles in the flat, in the order of its ring; they
+    /// add up to pi - turning.
+    std::vector<std::vector<double>> corners;
+};
+
+/// Angles of the flat border.
+///
+/// Paper:  `curvature`: [sawhney-2017], section 4 (Cherrier's formula): with the cotangent
+///         Laplacian A, A u = -Gauss curvature inside, u = 0 on the border; the turning becomes
+///         k + A u. `averaged_conformal`: [kim-kim], section 3.3; what is missing from 2 pi is
+///         spread over the border in proportion to its length.
+/// In:     a region (a disk) and its rings.
+/// Throws: Error{solver_failed}.
+[[nodiscard]] BorderAngles border_angles(const Region& region, const OneRings& rings,
+                                         AngleRule rule);
+
+}  // namespace lastflat

@@ -1,0 +1,155 @@
+// Based on: Vanderbei, "Symmetric Quasidefinite Matrices", SIAM J. Optimization 1995; Nocedal,
+// Wright, "Numerical Optimization", 2006, chapter 18.
+#include "core/constrain/optimality_system.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/numerics/tolerances.h"
+
+namespace lastflat {
+namespace {
+
+/// The lower triangle's pattern, all values zero: a 2x2 block for every edge and vertex, a row for
+/// every constraint.
+SparseMatrix pattern(const Region& region, const std::vector<LengthConstraint>& constraints) {
+    const auto n = static_cast<Index>(region.positions.size());
+    const auto m = static_cast<Index>(constraints.size());
+    std::vector<std::pair<Index, Index>> blocks;  // (column vertex, row vertex)
+    for (const Triangle& t : region.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) blocks.push_back(std::minmax(t[i], t[(i + 1) % 3]));
+    }
+    for (Index v = 0; v < n; ++v) blocks.emplace_back(v, v);
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+
+    std::vector<std::vector<Index>> rows_of_vertex(static_cast<std::size_t>(n));
+    for (Index k = 0; k < m; ++k) {
+        for (const auto& [a, b] : constraints[static_cast<std::size_t>(k)].edges) {
+            for (const Index v : {a, b}) {
+                auto& rows = rows_of_vertex[static_cast<std::size_t>(v)];
+                if (rows.empty() || rows.back() != 2 * n + k) rows.push_back(2 * n + k);
+            }
+        }
+    }
+    SparseMatrix matrix(2 * n + m, 2 * n + m);
+    matrix.reserve(static_cast<Index>(4 * blocks.size()) + 4 * m);
+    std::size_t block = 0;
+    for (Index v = 0; v < n; ++v) {
+        const std::size_t first = block;
+        while (block < blocks.size() && blocks[block].first == v) ++block;
+        for (Index side = 0; side < 2; ++side) {
+            matrix.startVec(2 * v + side);
+            for (std::size_t i = first; i < block; ++i) {
+                const Index w = blocks[i].second;
+                for (Index k = w == v ? side : 0; k < 2; ++k) {
+                    matrix.insertBackByOuterInner(2 * v + side, 2 * w + k) = 0.0;
+                }
+            }
+            for (const Index row : rows_of_vertex[static_cast<std::size_t>(v)]) {
+                matrix.insertBackByOuterInner(2 * v + side, row) = 0.0;
+            }
+        }
+    }
+    for (Index k = 0; k < m; ++k) {
+        matrix.startVec(2 * n + k);
+        matrix.insertBackByOuterInner(2 * n + k, 2 * n + k) = 0.0;
+    }
+    matrix.finalize();
+    return matrix;
+}
+
+}  // namespace
+
+OptimalitySystem::OptimalitySystem(const Region& region,
+                                   const std::vector<LengthConstraint>& constraints,
+                                   Distortion& distortion)
+    : constraints_(constraints),
+      distortion_(distortion),
+      unknowns_(2 * static_cast<Index>(region.positions.size())),
+      matrix_(pattern(region, constraints)) {
+    distortion_.bind(matrix_);
+    solver_.analyse(matrix_);
+}
+
+double& OptimalitySystem::entry(Index row, Index column) {
+    const auto* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column];
+    const auto* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column + 1];
+    return matrix_.valuePtr()[std::lower_bound(begin, end, row) - matrix_.innerIndexPtr()];
+}
+
+Eigen::VectorXd OptimalitySystem::residual(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd c(static_cast<Eigen::Index>(constraints_.size()));
+    for (Eigen::Index k = 0; k < c.size(); ++k) {
+        const auto& constraint = constraints_[static_cast<std::size_t>(k)];
+        c[k] = flat_length(constraint, x) - constraint.length;
+    }
+    return c;
+}
+
+/// Gradient: the unit vectors along the edges. Hessian: an edge that turns grows longer by second
+/// order; under compression (multiplier < 0) that lowers the energy, which a projected system drops.
+void OptimalitySystem::add_constraint(Index row, const Eigen::VectorXd& x, double multiplier,
+                                      HessianKind kind) {
+    const double weight = kind == HessianKind::exact ? multiplier : std::max(multiplier, 0.0);
+    for (const auto& [a, b] : constraints_[static_cast<std::size_t>(row - unknowns_)].edges) {
+        const Vec2 along = x.segment<2>(2 * a) - x.segment<2>(2 * b);
+        const double length = along.norm();
+        const Vec2 unit = along / length;
+        const Eigen::Matrix2d bend =
+            weight / length * (Eigen::Matrix2d::Identity() - unit * unit.transpose());
+        for (Index i = 0; i < 2; ++i) {
+            entry(row, 2 * a + i) += unit[i];
+            entry(row, 2 * b + i) -= unit[i];
+            for (Index j = 0; j < 2; ++j) {
+                if (j <= i) {
+                    entry(2 * a + i, 2 * a + j) += bend(i, j);
+                    entry(2 * b + i, 2 * b + j) += bend(i, j);
+                }
+                entry(2 * std::max(a, b) + i, 2 * std::min(a, b) + j) -= bend(i, j);
+            }
+        }
+    }
+}
+
+void OptimalitySystem::fill(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
+                            HessianKind kind) {
+    std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
+    gradient_ = distortion_.differentiate(x, kind, matrix_);
+    double trace = 0.0;
+    for (Index i = 0; i < unknowns_; ++i) trace += entry(i, i);
+    const double mean = trace / unknowns_;
+    for (Index i = 0; i < unknowns_; ++i) entry(i, i) += tolerance::rigid_motion * mean;
+    regularisation_ = tolerance::multiplier_regularisation / mean;
+    for (Index k = 0; k < static_cast<Index>(constraints_.size()); ++k) {
+        add_constraint(unknowns_ + k, x, multipliers[k], kind);
+        entry(unknowns_ + k, unknowns_ + k) = -regularisation_;
+    }
+}
+
+void OptimalitySystem::factor(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
+                              HessianKind kind) {
+    for (const HessianKind attempt : {kind, HessianKind::projected}) {
+        fill(x, multipliers, attempt);
+        if (solver_.factor(matrix_) &&
+            solver_.negative_pivots() == static_cast<Index>(constraints_.size())) {
+            return;
+        }
+    }
+    throw Error(ErrorCode::solver_failed, "a Newton step could not be computed");
+}
+
+Eigen::VectorXd OptimalitySystem::solve(const Eigen::VectorXd& top,
+                                        const Eigen::VectorXd& bottom) const {
+    Eigen::VectorXd right(top.size() + bottom.size());
+    right << top, bottom;
+    Eigen::VectorXd solution = solver_.solve(right);
+    for (int refinement = 0; refinement < 2; ++refinement) {
+        Eigen::VectorXd rest = right - matrix_.selfadjointView<Eigen::Lower>() * solution;
+        rest.tail(bottom.size()) -= regularisation_ * solution.tail(bottom.size());
+        solution += solver_.solve(rest);
+    }
+    return solution;
+}
+
+}  // namespace lastflat

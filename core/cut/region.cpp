@@ -1,0 +1,31 @@
+#include "core/cut/region.h"
+
+#include <Eigen/Geometry>
+
+namespace lastflat {
+
+std::vector<bool> border_mask(const Region& region) {
+    std::vector<bool> mask(region.positions.size(), false);
+    for (const Index vertex : region.border) mask[static_cast<std::size_t>(vertex)] = true;
+    return mask;
+}
+
+std::vector<double> border_lengths(const Region& region) {
+    std::vector<double> lengths(region.border.size());
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+        lengths[i] = region.distance(region.border[i], region.border[(i + 1) % lengths.size()]);
+    }
+    return lengths;
+}
+
+double surface_area(const Region& region) {
+    double area = 0.0;
+    for (const Triangle& t : region.triangles) {
+        area += 0.5 * (region.position(t[1]) - region.position(t[0]))
+                          .cross(region.position(t[2]) - region.position(t[0]))
+                          .norm();
+    }
+    return area;
+}
+
+}  // namespace lastflat

@@ -1,0 +1,35 @@
+#include "core/error.h"
+
+#include <cstdio>
+
+namespace lastflat {
+
+std::string_view name(ErrorCode code) {
+    switch (code) {  // no default: -Wswitch reports a code without a name
+        case ErrorCode::unreadable_model: return "unreadable_model";
+        case ErrorCode::unsupported_model: return "unsupported_model";
+        case ErrorCode::model_too_large: return "model_too_large";
+        case ErrorCode::mesh_not_manifold: return "mesh_not_manifold";
+        case ErrorCode::mesh_not_oriented: return "mesh_not_oriented";
+        case ErrorCode::mesh_degenerate: return "mesh_degenerate";
+        case ErrorCode::group_not_found: return "group_not_found";
+        case ErrorCode::curve_invalid: return "curve_invalid";
+        case ErrorCode::region_invalid: return "region_invalid";
+        case ErrorCode::region_not_disk: return "region_not_disk";
+        case ErrorCode::method_failed: return "method_failed";
+        case ErrorCode::constraints_infeasible: return "constraints_infeasible";
+        case ErrorCode::border_crosses: return "border_crosses";
+        case ErrorCode::solver_failed: return "solver_failed";
+        case ErrorCode::unsupported_request: return "unsupported_request";
+        case ErrorCode::cancelled: return "canceled";
+    }
+    return "unknown";
+}
+
+std::string place(const Vec3& position) {
+    char text[96];
+    std::snprintf(text, sizeof text, "%.1f %.1f %.1f", position.x(), position.y(), position.z());
+    return text;
+}
+
+}  // namespace lastflat

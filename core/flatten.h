@@ -1,0 +1,62 @@
+// The whole method: a model's bytes in, flat pieces and their certificate out.
+#pragma once
+
+#include <string_view>
+
+#include "core/constrain/length_constraints.h"
+#include "core/cut/cut.h"
+#include "core/layout/sheet.h"
+#include "core/load/load_model.h"
+#include "core/locate/curves.h"
+#include "core/measure/report.h"
+#include "core/outline/outline.h"
+#include "core/parameterize/method.h"
+#include "core/progress.h"
+#include "core/weld/weld.h"
+
+namespace lastflat {
+
+struct FlattenOptions {
+    LoadLimits limits;
+    WeldOptions weld;
+    std::vector<CurveSource> curves;
+    CutOptions cut;
+    std::vector<Lock> locks;
+    MethodOptions method;
+    double layout_gap_mm = 10.0;
+    std::size_t threads = 1;
+};
+
+struct FlatRegion {
+    Region region;
+    Chart chart;
+    Outline outline;
+    Metrics metrics;
+    std::vector<CurveReport> curves;
+    int iterations = 0;  ///< Newton steps; 0 for methods without any
+};
+
+struct Timing {
+    double load_ms = 0.0, cut_ms = 0.0, parameterize_ms = 0.0, constrain_ms = 0.0, total_ms = 0.0;
+};
+
+struct FlattenResult {
+    MethodName method = MethodName::isometric;
+    std::vector<FlatRegion> regions;
+    std::vector<PairReport> pairs;
+    Sheet sheet;
+    std::vector<Warning> warnings;
+    Timing timing;
+};
+
+/// Flattens a last.
+///
+/// In:     the bytes of a model (see `load_model`), the shoe-maker's constraints.
+/// Out:    every chosen region, flat; no triangle flipped; with `isometric` every lock kept to
+///         `tolerance::locked_length` and no border that crosses itself. The same bytes and options
+///         give the same result, whatever `threads` is.
+/// Throws: Error, of any code; nothing is returned in part.
+[[nodiscard]] FlattenResult flatten(std::string_view model, const FlattenOptions& options,
+                                    Progress& progress);
+
+}  // namespace lastflat

@@ -1,0 +1,59 @@
+#include "core/measure/check_result.h"
+
+#include "core/numerics/polygon.h"
+
+namespace lastflat {
+namespace {
+
+std::string first_places(const Region& region, const std::vector<Index>& triangles) {
+    std::string text;
+    for (std::size_t i = 0; i < triangles.size() && i < 3; ++i) {
+        const Triangle& t = region.triangles[static_cast<std::size_t>(triangles[i])];
+        text += (i == 0 ? " at " : ", ") + place(region.position(t[0]));
+    }
+    return triangles.size() > 3 ? text + " ..." : text;
+}
+
+void check_crossings(const Region& region, const Points2& uv, MethodName method,
+                     std::vector<Warning>& warnings) {
+    Points2 outline;
+    for (const Index v : region.border) outline.push_back(uv[static_cast<std::size_t>(v)]);
+    const auto crossings = self_crossings(outline);
+    if (crossings.empty()) return;
+    const Vec3& a = region.position(region.border[static_cast<std::size_t>(crossings.front().a)]);
+    const Vec3& b = region.position(region.border[static_cast<std::size_t>(crossings.front().b)]);
+    const std::string what = "region '" + region.name + "': the flat border crosses itself " +
+                             std::to_string(crossings.size()) + " times, first where " + place(a) +
+                             " meets " + place(b);
+    if (method == MethodName::isometric) {
+        throw Error(ErrorCode::border_crosses, what + "; cut the region so that it opens wider")
+            .at_option("regions/" + region.name)
+            .at_position(a);
+    }
+    warnings.push_back({"border_crosses", what, a});
+}
+
+}  // namespace
+
+void check_result(const Region& region, const Points2& uv, MethodName method, const Metrics& metrics,
+                  const std::vector<CurveReport>& curves, std::vector<Warning>& warnings) {
+    if (metrics.flipped_triangles > 0) {
+        throw Error(ErrorCode::method_failed,
+                    "region '" + region.name + "': the map folds, " +
+                        std::to_string(metrics.flipped_triangles) + " triangles are flipped," +
+                        first_places(region, flipped_triangles(region, uv)) +
+                        "; use the method \"isometric\", which never folds")
+            .at_option("method");
+    }
+    if (metrics.border_crossings > 0) check_crossings(region, uv, method, warnings);
+    if (method != MethodName::isometric) return;
+    for (const CurveReport& curve : curves) {
+        if (!curve.locked || curve.verdict == Verdict::pass) continue;
+        throw Error(ErrorCode::constraints_infeasible,
+                    "region '" + region.name + "': locked curve '" + curve.name + "' is off by " +
+                        std::to_string(curve.worst_edge_error_mm) + " mm on one edge")
+            .at_option("locks");
+    }
+}
+
+}  // namespace lastflat

@@ -1,0 +1,30 @@
+// Every epsilon of core, each with its reason. All are relative unless the name says otherwise.
+#pragma once
+
+namespace lastflat::tolerance {
+
+/// A triangle whose smallest height is below this share of its longest edge has no usable shape:
+/// cotangents and rest frames lose all digits.
+inline constexpr double degenerate_height = 1e-9;
+
+/// A locked length that is off by more than this share of itself has not been kept
+/// (design: pass at 1e-6). The solver aims at `solver_length`.
+inline constexpr double locked_length = 1e-6;
+inline constexpr double solver_length = 1e-11;
+
+/// Newton's method has converged when the decrease that its model still promises is below this
+/// share of the energy; the energy's own round-off is about 1e-15.
+inline constexpr double newton_decrease = 1e-13;
+
+/// Added to the diagonal of a Hessian, as a share of its mean: a rigid motion costs no energy, so
+/// the Hessian alone is singular in three directions.
+inline constexpr double rigid_motion = 1e-9;
+
+/// Subtracted from the diagonal of the multipliers, so that the optimality system is
+/// quasi-definite and can be factored in any order (Vanderbei 1995). Refinement removes its trace.
+inline constexpr double multiplier_regularisation = 1e-7;
+
+/// Two sides of a cut may differ by this much in the flat, in mm (design: pass at 0.001 mm).
+inline constexpr double pair_difference_mm = 1e-3;
+
+}  // namespace lastflat::tolerance

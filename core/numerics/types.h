@@ -1,0 +1,23 @@
+// Points, indices and sparse matrices: the words every stage shares. Lengths are mm, angles radians.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace lastflat {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+using Points2 = std::vector<Vec2>;
+using Points3 = std::vector<Vec3>;
+
+using Index = std::int32_t;
+using Triangle = std::array<Index, 3>;
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+}  // namespace lastflat

@@ -1,0 +1,30 @@
+#include "core/parameterize/chart.h"
+
+#include "core/numerics/polygon.h"
+
+namespace lastflat {
+namespace {
+
+double doubled_area_of(const Triangle& t, const Points2& uv) {
+    return doubled_area(uv[static_cast<std::size_t>(t[0])], uv[static_cast<std::size_t>(t[1])],
+                        uv[static_cast<std::size_t>(t[2])]);
+}
+
+}  // namespace
+
+std::vector<Index> flipped_triangles(const Region& region, const Points2& uv) {
+    std::vector<Index> flipped;
+    for (std::size_t t = 0; t < region.triangles.size(); ++t) {
+        // Negated, so that a point that is not a number counts as a flip.
+        if (!(doubled_area_of(region.triangles[t], uv) > 0.0)) flipped.push_back(static_cast<Index>(t));
+    }
+    return flipped;
+}
+
+double flat_area(const Region& region, const Points2& uv) {
+    double area = 0.0;
+    for (const Triangle& t : region.triangles) area += 0.5 * doubled_area_of(t, uv);
+    return area;
+}
+
+}  // namespace lastflat

@@ -1,0 +1,19 @@
+// A region laid into the plane.
+#pragma once
+
+#include "core/cut/region.h"
+
+namespace lastflat {
+
+/// One 2D point per region vertex, mm; triangles keep their orientation (counter-clockwise).
+struct Chart {
+    Points2 uv;
+};
+
+/// Triangles that are not counter-clockwise in the plane, ascending.
+[[nodiscard]] std::vector<Index> flipped_triangles(const Region& region, const Points2& uv);
+
+/// Flat area, mm^2, triangles counted with their sign.
+[[nodiscard]] double flat_area(const Region& region, const Points2& uv);
+
+}  // namespace lastflat

@@ -1,0 +1,55 @@
+// The distortion of a whole chart, as a function of its points: value, gradient, Hessian.
+#pragma once
+
+#include "core/cut/region.h"
+#include "core/parameterize/isotropic_energy.h"
+
+namespace lastflat {
+
+/// How Hessians of single triangles enter the sum.
+enum class HessianKind {
+    projected,  ///< clamped to be positive semi-definite: always a direction of descent
+    exact,      ///< as they are: quadratic convergence near a minimum
+};
+
+/// Sum over the triangles of surface area times energy density, mm^2. Coordinates are
+/// x0, y0, x1, y1, ... in vertex order.
+class Distortion {
+public:
+    Distortion(const Region& region, const IsotropicEnergy& energy);
+
+    [[nodiscard]] double total_area() const { return total_area_; }
+
+    /// Infinite if a triangle is flipped or collapsed.
+    [[nodiscard]] double value(const Eigen::VectorXd& x) const;
+
+    /// Largest step t for which x + t d has no collapsed triangle; infinite if there is none.
+    ///
+    /// Paper: [smith-2015], section 4.2: the smallest positive root of each triangle's area.
+    [[nodiscard]] double collapse_step(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const;
+
+    /// Finds where the lower triangles of the element Hessians stand in `matrix`, whose pattern
+    /// must hold a 2x2 block for every pair of vertices that share a triangle.
+    void bind(const SparseMatrix& matrix);
+
+    /// Returns the gradient and adds the Hessian to the values of the bound matrix.
+    /// Every triangle must be counter-clockwise at x.
+    [[nodiscard]] Eigen::VectorXd differentiate(const Eigen::VectorXd& x, HessianKind kind,
+                                                SparseMatrix& matrix) const;
+
+private:
+    struct Element {
+        Triangle vertices;
+        Eigen::Matrix2d rest_inverse;  ///< of [p1 - p0, p2 - p0] in the triangle's plane
+        double area;
+    };
+    [[nodiscard]] static Eigen::Matrix2d gradient_of(const Element& element,
+                                                     const Eigen::VectorXd& x);
+
+    const IsotropicEnergy& energy_;
+    std::vector<Element> elements_;
+    std::vector<std::array<Index, 21>> slots_;
+    double total_area_ = 0.0;
+};
+
+}  // namespace lastflat

@@ -1,0 +1,27 @@
+// Based on: Smith, de Goes, Kim, "Analytic Eigensystems for Isotropic Distortion Energies", TOG
+// 2019; Smith, Schaefer, "Bijective Parameterization with Free Boundaries", SIGGRAPH 2015.
+#include "core/parameterize/isotropic_energy.h"
+
+namespace lastflat {
+
+double SymmetricDirichlet::value(double s1, double s2) const {
+    return 0.25 * (s1 * s1 + s2 * s2 + 1.0 / (s1 * s1) + 1.0 / (s2 * s2));
+}
+
+EnergyDerivatives SymmetricDirichlet::derivatives(double s1, double s2) const {
+    const double i1 = 1.0 / s1, i2 = 1.0 / s2;
+    const double product = i1 * i1 * i1 * i2 * i2 * i2;
+    EnergyDerivatives e{};
+    e.value = value(s1, s2);
+    e.d1 = 0.5 * (s1 - i1 * i1 * i1);
+    e.d2 = 0.5 * (s2 - i2 * i2 * i2);
+    e.d11 = 0.5 * (1.0 + 3.0 * i1 * i1 * i1 * i1);
+    e.d12 = 0.0;
+    e.d22 = 0.5 * (1.0 + 3.0 * i2 * i2 * i2 * i2);
+    // The differences are divided out, so that s1 = s2 needs no limit.
+    e.twist = 0.5 * (1.0 - (s1 * s1 - s1 * s2 + s2 * s2) * product);
+    e.flip = 0.5 * (1.0 + (s1 * s1 + s1 * s2 + s2 * s2) * product);
+    return e;
+}
+
+}  // namespace lastflat

@@ -1,0 +1,23 @@
+#include "core/parameterize/mean_value.h"
+
+#include "core/parameterize/convex_combination.h"
+
+namespace lastflat {
+
+Chart flatten_mean_value(const Region& region, const Points2& border) {
+    const OneRings rings(region);
+    WeightRows rows(region.positions.size());
+    for (std::size_t v = 0; v < rows.size(); ++v) {
+        const auto vertex = static_cast<Index>(v);
+        if (!rings.on_border(vertex)) {
+            rows[v] = mean_value_weights(surface_star(region, rings, vertex));
+        }
+    }
+    Points2 fixed(region.positions.size(), Vec2::Zero());
+    for (std::size_t i = 0; i < border.size(); ++i) {
+        fixed[static_cast<std::size_t>(region.border[i])] = border[i];
+    }
+    return {solve_convex_combinations(rows, fixed)};
+}
+
+}  // namespace lastflat

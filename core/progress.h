@@ -1,0 +1,52 @@
+// How far a job is, and whether it is still wanted. Shared between the thread that works and those
+// that watch.
+#pragma once
+
+#include <atomic>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace lastflat {
+
+enum class Stage { load, weld, cut, parameterize, constrain, measure, done };
+
+[[nodiscard]] constexpr std::string_view name(Stage stage) {
+    switch (stage) {
+        case Stage::load: return "load";
+        case Stage::weld: return "weld";
+        case Stage::cut: return "cut";
+        case Stage::parameterize: return "parameterize";
+        case Stage::constrain: return "constrain";
+        case Stage::measure: return "measure";
+        case Stage::done: return "done";
+    }
+    return "unknown";
+}
+
+/// Written by one working thread, read by any; `cancel` may be called from any thread.
+class Progress {
+public:
+    /// Says that `stage` has begun and stands at `fraction` in [0, 1] of the whole job.
+    /// Throws: Error{cancelled} if the job was cancelled.
+    void reach(Stage stage, double fraction) {
+        stage_ = stage;
+        fraction_ = fraction;
+        check();
+    }
+    /// Throws: Error{cancelled} if the job was cancelled. Called in every long loop.
+    void check() const {
+        if (cancelled_) throw Error(ErrorCode::cancelled, "the job was cancelled");
+    }
+    void cancel() { cancelled_ = true; }
+
+    [[nodiscard]] Stage stage() const { return stage_; }
+    [[nodiscard]] double fraction() const { return fraction_; }
+
+private:
+    std::atomic<Stage> stage_{Stage::load};
+    std::atomic<double> fraction_{0.0};
+    std::atomic<bool> cancelled_{false};
+};
+
+}  // namespace lastflat

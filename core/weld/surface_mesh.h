@@ -1,0 +1,38 @@
+// The surface that takes part: manifold, oriented, in mm.
+#pragma once
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/numerics/types.h"
+
+namespace lastflat {
+
+struct SurfaceTraits : OpenMesh::DefaultTraits {
+    using Point = OpenMesh::Vec3d;
+    using Normal = OpenMesh::Vec3d;
+};
+using TriMesh = OpenMesh::TriMesh_ArrayKernelT<SurfaceTraits>;
+
+/// Vertex handles are the ids of the file; a vertex that was welded away, or that no selected face
+/// uses, is isolated.
+struct SurfaceMesh {
+    TriMesh mesh;
+    std::vector<Index> welded_to;  ///< per id of the file, the id that stands for it
+    std::vector<Warning> warnings;
+
+    [[nodiscard]] Vec3 position(Index vertex) const {
+        const auto& p = mesh.point(OpenMesh::VertexHandle(vertex));
+        return {p[0], p[1], p[2]};
+    }
+    /// Whether the id exists and a selected face uses it.
+    [[nodiscard]] bool is_on_surface(Index vertex) const {
+        return vertex >= 0 && vertex < static_cast<Index>(welded_to.size()) &&
+               !mesh.is_isolated(OpenMesh::VertexHandle(welded_to[static_cast<std::size_t>(vertex)]));
+    }
+};
+
+}  // namespace lastflat

@@ -1,0 +1,119 @@
+// HTTP as the rest of the server sees it: plain requests, plain responses, a table of routes.
+// Nothing here, and nothing outside server/http/, knows which library speaks the protocol.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lastflat::http {
+
+/// One part of a multipart/form-data body, or the one part of any other body (name empty).
+struct BodyPart {
+    std::string name;        ///< UTF-8 without control characters
+    std::string file_name;   ///< as the client gave it; never a path to open
+    std::string media_type;  ///< "type/subtype" in lower case, without parameters; may be empty
+    std::string bytes;
+};
+
+struct Request {
+    std::string method;
+    std::string path;                          ///< without the query
+    std::map<std::string, std::string> query;  ///< percent-decoded; UTF-8, no control characters
+    std::map<std::string, std::string>
+        headers;                        ///< names in lower case; repeated ones joined by ", "
+    std::vector<std::string> captures;  ///< what the route's "{id}"s matched
+    std::string remote_address;         ///< of the peer; no header can change it
+    std::vector<BodyPart> body;         ///< empty for a request without one
+
+    /// The header's value, empty if it is absent. `name` in lower case.
+    [[nodiscard]] std::string_view header(const std::string& name) const {
+        const auto found = headers.find(name);
+        return found == headers.end() ? std::string_view() : std::string_view(found->second);
+    }
+};
+
+struct Response {
+    int status = 200;
+    std::string media_type;                   ///< of the body
+    std::shared_ptr<const std::string> body;  ///< shared, so that a large result is not copied
+    std::vector<std::pair<std::string, std::string>> headers;  ///< framing ones are ours: dropped
+};
+
+using Handler = std::function<Response(const Request&)>;
+
+/// `pattern` matches the whole path; "{id}" stands for 26 characters of 0-9 and A-Z.
+struct Route {
+    std::string method;  ///< GET answers HEAD too
+    std::string pattern;
+    Handler handler;
+    bool takes_body = false;  ///< without it a body is refused; only POST, PUT and PATCH can
+    bool express =
+        false;  ///< answered even when all connections are taken; must not block, no body
+};
+
+struct ServerLimits {
+    std::size_t body_bytes = 256u << 20;         ///< after chunking; multipart framing included
+    std::size_t all_bodies_bytes = 1024u << 20;  ///< of all requests being served; more get 503
+    std::size_t body_parts = 16;
+    std::size_t head_bytes = 16u << 10;
+    std::size_t head_lines = 100;
+    std::size_t connections = 64;            ///< served at once, each on a thread
+    std::size_t queued_requests = 256;       ///< complete heads waiting for a thread; more get 503
+    std::size_t waiting_connections = 4096;  ///< head not complete; also bounded by RLIMIT_NOFILE
+    std::chrono::milliseconds head_time{10'000};  ///< from accept to the end of the head
+    std::chrono::milliseconds body_time{60'000};  ///< from a thread taking the request to its end
+    std::size_t body_bytes_per_second = 8192;     ///< on average, once `slow_body_grace` is over
+    std::chrono::milliseconds slow_body_grace{5'000};
+    std::chrono::milliseconds write_time{60'000};  ///< for the whole answer
+    std::chrono::milliseconds stop_time{5'000};    ///< for bodies and answers once `stop` is called
+};
+
+/// Makes the answer to a request that never reached a handler (404, 405, 413, 500, 503, ...).
+/// Called from several threads at once.
+using ProblemMaker =
+    std::function<Response(int status, std::string_view code, std::string_view detail)>;
+
+/// Told why a request became a 500: `what` is for the operator and never reaches the client.
+/// Called from several threads at once.
+using FailureLog = std::function<void(const Request& request, std::string_view what)>;
+
+/// An HTTP/1.1 server, one request a connection.
+///
+/// In:     the routes and limits; what makes problem documents; who is told of exceptions.
+/// Out:    every well-formed request is answered by its handler or by a problem; every handler runs
+///         on a connection thread of its own; an exception of a handler becomes a 500.
+///         HEAD is answered by the GET handler, OPTIONS by the list of methods. `Range` is ignored.
+/// Throws: std::invalid_argument if a route contradicts itself (see Route);
+///         std::runtime_error from `bind` if the address cannot be bound, and from `run` if the
+///         listening socket stays broken.
+class Server {
+public:
+    Server(std::vector<Route> routes, ServerLimits limits, ProblemMaker problem,
+           FailureLog failure_log = {});
+    ~Server();
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    /// Binds the address ("127.0.0.1", "0.0.0.0", "localhost", "::1", "[::1]"); port 0 picks one.
+    /// Returns the port. Connections are queued by the kernel from here on.
+    int bind(const std::string& host, int port);
+    /// Serves until `stop` is called. Returns when every connection has ended. Once per server.
+    void run();
+    /// Stops accepting, drops unfinished heads, lets running and queued requests finish.
+    /// Callable from any thread, before `run` and more than once.
+    void stop();
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lastflat::http

@@ -1,0 +1,46 @@
+// What is left to cpp-httplib: it binds and accepts, decodes bodies and writes answers. Threads,
+// deadlines, limits, routing and the client's head are ours. It never sees that head: it reads a
+// new one, made from what was vetted.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "server/http/connection_pool.h"
+#include "server/http/http.h"
+#include "server/http/socket.h"
+
+namespace lastflat::http {
+
+class HttpLibrary {
+public:
+    /// Called on the thread of `accept_until_stopped` with each connection.
+    using Accept = std::function<void(Socket)>;
+    /// Reads and decodes the whole body. Throws: Refusal.
+    using ReadBody = std::function<std::string()>;
+    /// Makes the answer; `read_body` is empty if there is no body. Must not throw.
+    using Answer = std::function<Response(const ReadBody& read_body)>;
+
+    HttpLibrary(const ServerLimits& limits, Accept accept);
+    ~HttpLibrary();
+    HttpLibrary(const HttpLibrary&) = delete;
+    HttpLibrary& operator=(const HttpLibrary&) = delete;
+
+    /// Returns the port. Throws: std::runtime_error.
+    int bind(const std::string& host, int port);
+    /// False: accepting failed for good, although nobody called `stop`.
+    [[nodiscard]] bool accept_until_stopped();
+    /// Any thread, at any time, more than once.
+    void stop();
+    [[nodiscard]] bool is_stopped() const;
+
+    /// Reads the body, calls `answer`, writes what it returns. False: the client is gone.
+    [[nodiscard]] bool exchange(VettedConnection& connection, const Answer& answer);
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lastflat::http

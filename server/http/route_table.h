@@ -1,0 +1,34 @@
+// Which route a method and a path lead to.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/http/http.h"
+
+namespace lastflat::http {
+
+struct RouteMatch {
+    const Route* route = nullptr;  ///< null: no route of this method has the path
+    std::vector<std::string> captures;
+};
+
+class RouteTable {
+public:
+    /// Throws: std::invalid_argument if a route has no handler, takes a body although its method
+    ///         or its being express forbids it, or names a method that cannot be served.
+    explicit RouteTable(std::vector<Route> routes);
+
+    /// `path` is compared as it was sent: no pattern needs percent-encoding, so an encoded path is
+    /// never a second name for a route. HEAD finds GET's route.
+    [[nodiscard]] RouteMatch find(std::string_view method, std::string_view path) const;
+
+    /// The methods of the path as an Allow header; empty if no route has the path.
+    [[nodiscard]] std::string allowed(std::string_view path) const;
+
+private:
+    std::vector<Route> routes_;
+};
+
+}  // namespace lastflat::http

@@ -1,0 +1,169 @@
+// Puts the layer together: the library accepts, the gate waits for heads, the pools serve.
+#include <exception>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "server/http/answer.h"
+#include "server/http/connection_gate.h"
+#include "server/http/connection_pool.h"
+#include "server/http/head.h"
+#include "server/http/http.h"
+#include "server/http/library.h"
+#include "server/http/multipart.h"
+#include "server/http/refusal.h"
+#include "server/http/route_table.h"
+#include "server/http/text.h"
+
+namespace lastflat::http {
+namespace {
+
+constexpr std::size_t express_threads = 2;
+constexpr std::size_t most_queued_express = 64;
+
+std::vector<BodyPart> parts_of(const Head& head, std::string body, std::size_t most_parts) {
+    const std::string_view content_type = head.request.header("content-type");
+    const std::string media_type = media_type_of(content_type);
+    if (media_type == "multipart/form-data") {
+        return parse_multipart(content_type, body, most_parts);
+    }
+    std::vector<BodyPart> parts(1);
+    parts[0].media_type = media_type;
+    parts[0].bytes = std::move(body);
+    return parts;
+}
+
+}  // namespace
+
+class Server::Impl {
+public:
+    Impl(std::vector<Route> routes, ServerLimits limits, ProblemMaker problem,
+         FailureLog failure_log)
+        : routes_(std::move(routes)),
+          limits_(limits),
+          problem_(std::move(problem)),
+          failure_log_(std::move(failure_log)),
+          library_(limits, [this](Socket socket) { gate_->admit(std::move(socket)); }) {}
+
+    int bind(const std::string& host, int port) { return library_.bind(host, port); }
+    void run();
+    void stop() { library_.stop(); }
+
+private:
+    [[nodiscard]] std::optional<std::string> on_head(Socket& socket, std::string& bytes,
+                                                     std::size_t head_size);
+    [[nodiscard]] std::string refusal_bytes(const Refusal& refusal) const;
+    void serve(VettedConnection connection);
+    [[nodiscard]] Response handle(Head& head, const HttpLibrary::ReadBody& read_body) const;
+    [[nodiscard]] Response failed(const Request& request, std::string_view what) const;
+
+    const RouteTable routes_;
+    const ServerLimits limits_;
+    const ProblemMaker problem_;
+    const FailureLog failure_log_;
+    HttpLibrary library_;
+    std::unique_ptr<ConnectionGate> gate_;
+    std::unique_ptr<ConnectionPool> pool_;
+    std::unique_ptr<ConnectionPool> express_pool_;
+};
+
+void Server::Impl::run() {
+    if (library_.is_stopped()) return;
+    gate_ = std::make_unique<ConnectionGate>(
+        limits_,
+        [this](Socket& socket, std::string& bytes, std::size_t head_size) {
+            return on_head(socket, bytes, head_size);
+        },
+        [this](const Refusal& refusal) { return refusal_bytes(refusal); });
+    const auto serve_one = [this](VettedConnection connection) { serve(std::move(connection)); };
+    pool_ =
+        std::make_unique<ConnectionPool>(limits_.connections, limits_.queued_requests, serve_one);
+    express_pool_ =
+        std::make_unique<ConnectionPool>(express_threads, most_queued_express, serve_one);
+
+    const bool was_stopped = library_.accept_until_stopped();
+
+    // The gate last: the pools hand it the connections they have answered.
+    gate_->drop_unfinished();
+    pool_->finish();
+    express_pool_->finish();
+    gate_->finish();
+    if (!was_stopped) throw std::runtime_error("the listening socket does not accept any more");
+}
+
+std::optional<std::string> Server::Impl::on_head(Socket& socket, std::string& bytes,
+                                                 std::size_t head_size) {
+    try {
+        VettedConnection connection;
+        connection.head = vet_head(std::string_view(bytes).substr(0, head_size), routes_, limits_);
+        if (connection.head.has_body()) connection.early_body = bytes.substr(head_size);
+        const bool without_body = connection.head.request.method == "HEAD";
+        ConnectionPool& pool = connection.head.route->express ? *express_pool_ : *pool_;
+        connection.socket = std::move(socket);
+        if (pool.offer(connection)) return std::nullopt;
+        socket = std::move(connection.socket);
+        Refusal refusal = overloaded();
+        if (without_body) refusal.without_body();
+        return refusal_bytes(refusal);
+    } catch (const Refusal& refusal) {
+        return refusal_bytes(refusal);
+    }
+}
+
+std::string Server::Impl::refusal_bytes(const Refusal& refusal) const {
+    return answer_bytes(answer_to(refusal, problem_), refusal.is_without_body());
+}
+
+void Server::Impl::serve(VettedConnection connection) {
+    connection.head.request.remote_address = peer_address(connection.socket.fd());
+    const bool answered = library_.exchange(
+        connection,
+        [&](const HttpLibrary::ReadBody& read_body) { return handle(connection.head, read_body); });
+    if (answered) gate_->linger(std::move(connection.socket));
+}
+
+Response Server::Impl::handle(Head& head, const HttpLibrary::ReadBody& read_body) const {
+    try {
+        if (read_body) head.request.body = parts_of(head, read_body(), limits_.body_parts);
+        return head.route->handler(head.request);
+    } catch (const Refusal& refusal) {
+        return answer_to(refusal, problem_);
+    } catch (const std::exception& error) {
+        return failed(head.request, error.what());
+    } catch (...) {
+        return failed(head.request, "an exception of unknown type");
+    }
+}
+
+Response Server::Impl::failed(const Request& request, std::string_view what) const {
+    try {
+        if (failure_log_) failure_log_(request, what);
+    } catch (...) {
+        // A log that fails must not take the answer with it.
+    }
+    return answer_to(Refusal(500, "internal_error",
+                             "The server failed to answer. The fault is not in the request."),
+                     problem_);
+}
+
+Server::Server(std::vector<Route> routes, ServerLimits limits, ProblemMaker problem,
+               FailureLog failure_log)
+    : impl_(std::make_unique<Impl>(std::move(routes), limits, std::move(problem),
+                                   std::move(failure_log))) {}
+
+Server::~Server() = default;
+
+int Server::bind(const std::string& host, int port) {
+    return impl_->bind(host, port);
+}
+
+void Server::run() {
+    impl_->run();
+}
+
+void Server::stop() {
+    impl_->stop();
+}
+
+}  // namespace lastflat::http

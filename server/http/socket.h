@@ -1,0 +1,58 @@
+// A connected socket that closes itself, and reading and writing it against a deadline.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace lastflat::http {
+
+using Clock = std::chrono::steady_clock;
+
+/// Owns a file descriptor.
+class Socket {
+public:
+    Socket() = default;
+    explicit Socket(int fd) : fd_(fd) {}
+    ~Socket() { close(); }
+    Socket(Socket&& other) noexcept : fd_(other.release()) {}
+    Socket& operator=(Socket&& other) noexcept;
+    Socket(const Socket&) = delete;
+    Socket& operator=(const Socket&) = delete;
+
+    [[nodiscard]] int fd() const { return fd_; }
+    [[nodiscard]] bool is_open() const { return fd_ >= 0; }
+    int release();
+    void close();
+
+private:
+    int fd_ = -1;
+};
+
+/// When the server wants all connections to be over: later than anything until it stops.
+class StopTime {
+public:
+    void set(Clock::time_point time) { ticks_ = time.time_since_epoch().count(); }
+    [[nodiscard]] Clock::time_point get() const {
+        return Clock::time_point(Clock::duration(ticks_.load()));
+    }
+
+private:
+    std::atomic<Clock::rep> ticks_{Clock::time_point::max().time_since_epoch().count()};
+};
+
+enum class SocketEvent { readable, writable };
+
+/// Waits until the socket can be read or written; false once `deadline` or `stop_time` is over.
+[[nodiscard]] bool wait_for(int fd, SocketEvent event, Clock::time_point deadline,
+                            const StopTime& stop_time);
+
+/// Makes an accepted socket non-blocking, closed on exec, and without Nagle's delay.
+void prepare_accepted(int fd);
+
+/// The peer's address without its port; empty if it is gone.
+[[nodiscard]] std::string peer_address(int fd);
+
+}  // namespace lastflat::http

@@ -1,0 +1,247 @@
+// What many, slow or broken clients do to the others; starting and stopping.
+#include <doctest/doctest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <memory>
+#include <vector>
+
+#include "server/http/connection_gate.h"
+#include "tests/server/http/running_server.h"
+
+using namespace lastflat::http;
+using std::chrono::milliseconds;
+
+namespace {
+
+/// Descriptors of this process that listen on the port, in rising order.
+std::vector<int> listeners(int port) {
+    std::vector<int> found;
+    for (int fd = 3; fd < 4096; ++fd) {
+        int accepting = 0;
+        socklen_t size = sizeof accepting;
+        sockaddr_in address{};
+        socklen_t address_size = sizeof address;
+        if (::getsockopt(fd, SOL_SOCKET, SO_ACCEPTCONN, &accepting, &size) == 0 && accepting &&
+            ::getsockname(fd, reinterpret_cast<sockaddr*>(&address), &address_size) == 0 &&
+            ntohs(address.sin_port) == port) {
+            found.push_back(fd);
+        }
+    }
+    return found;
+}
+
+milliseconds since(Clock::time_point start) {
+    return std::chrono::duration_cast<milliseconds>(Clock::now() - start);
+}
+
+std::string healthz(int port) {
+    return ask(port, get("/healthz"));
+}
+
+}  // namespace
+
+TEST_SUITE("server/http/server under load") {
+    TEST_CASE("health is answered while everything else is taken") {
+        ServerLimits limits;
+        limits.connections = 3;
+        limits.queued_requests = 2;
+        RunningServer server(limits);
+        std::vector<std::unique_ptr<RawClient>> clients;
+        const auto connect = [&](const std::string& bytes) {
+            clients.push_back(std::make_unique<RawClient>(server.port()));
+            clients.back()->send(bytes);
+        };
+        for (int i = 0; i < 200; ++i) connect("");
+        connect("GET /echo HTTP/1.1\r\nHos");
+        for (int i = 0; i < 3; ++i) connect(get("/wait"));
+        REQUIRE(server.turnstile.wait_for(3));
+        for (int i = 0; i < 2; ++i) connect(get("/wait"));
+
+        const auto start = Clock::now();
+        CHECK(body_of(healthz(server.port())) == "ok");
+        CHECK(since(start) < milliseconds(500));
+
+        const std::string refused = ask(server.port(), get("/echo"));
+        CHECK(status_of(refused) == 503);
+        CHECK(refused.find("Retry-After: ") != std::string::npos);
+        CHECK(server.turnstile.waiting() == 3);
+
+        server.turnstile.open();
+        for (std::size_t i = 201; i < clients.size(); ++i) {
+            CHECK(body_of(clients[i]->receive()) == "waited");
+        }
+    }
+
+    TEST_CASE("the connection that has waited longest makes room") {
+        ServerLimits limits;
+        limits.waiting_connections = 10;
+        RunningServer server(limits);
+        std::vector<std::unique_ptr<RawClient>> clients;
+        for (int i = 0; i < 40; ++i) {
+            clients.push_back(std::make_unique<RawClient>(server.port()));
+        }
+        CHECK(body_of(healthz(server.port())) == "ok");
+        CHECK(clients.front()->receive() == "");
+        CHECK(clients.front()->was_closed());
+        clients.back()->send(get("/echo"));
+        CHECK(status_of(clients.back()->receive()) == 200);
+    }
+
+    TEST_CASE("a head must be complete in time") {
+        ServerLimits limits;
+        limits.head_time = milliseconds(150);
+        RunningServer server(limits);
+        RawClient silent(server.port());
+        RawClient slow(server.port());
+        slow.send("GET /echo HTTP/1.1\r\n");
+        const std::string answer = slow.receive();
+        CHECK(status_of(answer) == 408);
+        CHECK(body_of(answer) == "head_too_slow");
+        CHECK(silent.receive() == "");
+        CHECK(silent.was_closed());
+    }
+
+    TEST_CASE("a body must be complete in time") {
+        ServerLimits limits;
+        limits.body_time = milliseconds(150);
+        RunningServer server(limits);
+        const auto start = Clock::now();
+        CHECK(body_of(ask(server.port(), post("Content-Length: 5\r\n", "hell"))) ==
+              "body_too_slow");
+        CHECK(body_of(ask(server.port(), post("Transfer-Encoding: chunked\r\n", "5\r\nhell"))) ==
+              "body_too_slow");
+        CHECK(since(start) < milliseconds(5000));
+    }
+
+    TEST_CASE("a body must come at a minimum rate") {
+        ServerLimits limits;
+        limits.body_time = milliseconds(60'000);
+        limits.slow_body_grace = milliseconds(150);
+        limits.body_bytes_per_second = 1000;
+        RunningServer server(limits);
+        const auto start = Clock::now();
+        CHECK(status_of(ask(server.port(),
+                            post("Content-Length: 500\r\n", std::string(200, 'x')))) == 408);
+        CHECK(since(start) >= milliseconds(340));
+        CHECK(since(start) < milliseconds(5000));
+    }
+
+    TEST_CASE("an answer must be taken in time") {
+        ServerLimits limits;
+        limits.write_time = milliseconds(100);
+        limits.connections = 1;
+        RunningServer server(limits);
+        for (int i = 0; i < 3; ++i) {
+            RawClient lazy(server.port());
+            lazy.send(get("/huge"));
+            // The one thread is free again, or this would find nobody.
+            CHECK(status_of(ask(server.port(), get("/echo"))) == 200);
+        }
+    }
+
+    TEST_CASE("bodies of all requests together are bounded") {
+        ServerLimits limits;
+        limits.all_bodies_bytes = 1000;
+        RunningServer server(limits);
+        const std::string answer =
+            ask(server.port(), post("Content-Length: 1001\r\n", std::string(1001, 'x')));
+        CHECK(status_of(answer) == 503);
+        CHECK(answer.find("Retry-After: ") != std::string::npos);
+        // What the first one took was given back.
+        for (int i = 0; i < 3; ++i) {
+            CHECK(status_of(ask(server.port(),
+                                post("Content-Length: 900\r\n", std::string(900, 'x')))) == 200);
+        }
+    }
+
+    TEST_CASE("stopping finishes what runs and what is queued, and nothing else") {
+        ServerLimits limits;
+        limits.connections = 1;
+        RunningServer server(limits);
+        RawClient running(server.port());
+        running.send(get("/wait"));
+        REQUIRE(server.turnstile.wait_for(1));
+        RawClient queued(server.port());
+        queued.send(get("/echo"));
+        RawClient unfinished(server.port());
+        unfinished.send("GET /echo HTTP/1.1\r\n");
+        REQUIRE(body_of(healthz(server.port())) == "ok");  // so the gate has seen the ones before
+
+        server.server().stop();
+        server.server().stop();
+        CHECK(unfinished.receive() == "");
+        CHECK(unfinished.was_closed());
+        CHECK_THROWS(RawClient(server.port()));
+        server.turnstile.open();
+        CHECK(body_of(running.receive()) == "waited");
+        CHECK(status_of(queued.receive()) == 200);
+        server.join();
+        CHECK(server.run_error() == "");
+    }
+
+    TEST_CASE("stopping does not wait for a body for long") {
+        ServerLimits limits;
+        limits.stop_time = milliseconds(100);
+        RunningServer server(limits);
+        RawClient client(server.port());
+        client.send(post("Content-Length: 5\r\nExpect: 100-continue\r\n", ""));
+        REQUIRE(client.receive_until("\r\n\r\n") != "");
+        const auto start = Clock::now();
+        server.server().stop();
+        CHECK(status_of(client.receive()) == 408);
+        server.join();
+        CHECK(since(start) < milliseconds(5000));
+    }
+
+    TEST_CASE("a server stopped before it runs does not run") {
+        for (const bool bound_first : {true, false}) {
+            Server server({{"GET", "/", [](const Request&) { return Response{}; }}}, {},
+                          test_problem);
+            if (!bound_first) server.stop();
+            server.bind("127.0.0.1", 0);
+            server.stop();
+            server.run();
+        }
+    }
+
+    TEST_CASE("a port has one server") {
+        RunningServer first;
+        for (const char* host : {"127.0.0.1", "localhost"}) {
+            Server second({}, {}, test_problem);
+            CHECK_THROWS_AS(second.bind(host, first.port()), std::runtime_error);
+        }
+        Server nowhere({}, {}, test_problem);
+        CHECK_THROWS_AS(nowhere.bind("203.0.113.1", 0), std::runtime_error);
+        CHECK_THROWS(nowhere.run());
+    }
+
+    TEST_CASE("every spelling of an address can be bound") {
+        for (const char* host : {"127.0.0.1", "0.0.0.0", "localhost", "::1", "[::1]"}) {
+            CAPTURE(host);
+            Server server({}, {}, test_problem);
+            CHECK(server.bind(host, 0) > 0);
+        }
+    }
+
+    TEST_CASE("an error of accept does not end the service") {
+        RunningServer server;
+        REQUIRE(healthz(server.port()) != "");
+        const std::vector<int> found = listeners(server.port());
+        REQUIRE(found.size() == 2);
+        // The library's descriptor now names a socket that cannot accept: it gives up on it.
+        const Socket other(::socket(AF_INET, SOCK_STREAM, 0));
+        REQUIRE(::dup2(other.fd(), found[0]) == found[0]);
+        for (int i = 0; i < 3; ++i) CHECK(body_of(healthz(server.port())) == "ok");
+        CHECK(server.run_error() == "");
+    }
+
+    TEST_CASE("a listening socket that stays broken ends the service with an error") {
+        RunningServer server;
+        REQUIRE(healthz(server.port()) != "");
+        REQUIRE(::shutdown(listeners(server.port()).at(0), SHUT_RDWR) == 0);
+        server.join();
+        CHECK(server.run_error().find("accept") != std::string::npos);
+    }
+}
