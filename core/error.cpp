@@ -26,6 +26,20 @@ std::string_view name(ErrorCode code) {
     return "unknown";
 }
 
+Error& Error::at_option(const std::vector<std::string>& path) {
+    std::string pointer;
+    for (const std::string& step : path) {
+        pointer += '/';
+        for (const char c : step) {
+            if (c == '~') pointer += "~0";
+            else if (c == '/') pointer += "~1";
+            else pointer += c;
+        }
+    }
+    option_ = std::move(pointer);
+    return *this;
+}
+
 std::string place(const Vec3& position) {
     char text[96];
     std::snprintf(text, sizeof text, "%.1f %.1f %.1f", position.x(), position.y(), position.z());

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/numerics/types.h"
 
@@ -37,12 +38,13 @@ class Error : public std::runtime_error {
 public:
     Error(ErrorCode code, const std::string& detail) : std::runtime_error(detail), code_(code) {}
 
-    /// The part of the options that is at fault, as a path such as "curves/heel/vertices/12".
-    Error& at_option(std::string path) { option_ = std::move(path); return *this; }
+    /// The part of the options that is at fault: {"curves", "heel", "vertices", "12"}.
+    Error& at_option(const std::vector<std::string>& path);
     /// The place on the last, in mm.
     Error& at_position(const Vec3& position) { position_ = position; return *this; }
 
     [[nodiscard]] ErrorCode code() const { return code_; }
+    /// The path as a JSON pointer (RFC 6901), such as "/curves/heel/vertices/12".
     [[nodiscard]] const std::optional<std::string>& option() const { return option_; }
     [[nodiscard]] const std::optional<Vec3>& position() const { return position_; }
 

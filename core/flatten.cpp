@@ -33,7 +33,7 @@ void check_locks(const std::vector<Lock>& locks, const Curves& curves) {
                                        [&](const Curve& c) { return c.name == locks[i].curve; });
         if (!known) {
             throw Error(ErrorCode::curve_invalid, "lock on '" + locks[i].curve + "' names no curve")
-                .at_option("locks/" + std::to_string(i) + "/curve");
+                .at_option({"locks", std::to_string(i), "curve"});
         }
     }
 }

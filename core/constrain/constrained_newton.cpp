@@ -138,7 +138,7 @@ private:
                 "region '" + region.name + "': the locked lengths cannot all be kept; furthest off "
                 "is curve '" + constraint.curve + "' at " + place(position) + ", by " + amount +
                 "; lock it by \"keep\": \"total\", or not at all")
-        .at_option("locks")
+        .at_option({"locks"})
         .at_position(position);
 }
 

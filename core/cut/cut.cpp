@@ -20,7 +20,7 @@ std::vector<bool> opened_edges(const SurfaceMesh& surface, const Curves& curves,
                                         [&](const Curve& c) { return c.name == cuts[i]; });
         if (curve == curves.end()) {
             throw Error(ErrorCode::curve_invalid, "cut '" + cuts[i] + "' names no curve")
-                .at_option("cuts/" + std::to_string(i));
+                .at_option({"cuts", std::to_string(i)});
         }
         for (std::size_t k = 1; k < curve->vertices.size(); ++k) {
             const auto halfedge =
@@ -108,7 +108,7 @@ Index nearest_vertex(const SurfaceMesh& surface, const Vec3& position) {
 
 [[noreturn]] void fail_choice(const RegionChoice& choice, const std::string& what) {
     throw Error(ErrorCode::region_invalid, "region '" + choice.name + "': " + what)
-        .at_option("regions/" + choice.name);
+        .at_option({"regions", choice.name});
 }
 
 Index chosen_piece(const SurfaceMesh& surface, const Pieces& pieces, const RegionChoice& choice) {

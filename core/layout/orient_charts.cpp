@@ -3,19 +3,39 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cut/border_segments.h"
 #include "core/layout/base_line.h"
 #include "core/layout/sheet.h"
 
 namespace lastflat {
 namespace {
 
-const CurveRun* run_of(const Region& region, std::initializer_list<const char*> names) {
-    for (const char* name : names) {
-        for (const CurveRun& run : region.runs) {
-            if (run.curve == name && !run.closed()) return &run;
-        }
+const BorderSegment* segment_of(const std::vector<BorderSegment>& segments, const char* name) {
+    for (const BorderSegment& segment : segments) {
+        if (segment.curve == name && segment.first != segment.last) return &segment;
     }
     return nullptr;
+}
+
+/// The whole centre line in front, from its parts if it is given in parts.
+std::optional<BorderSegment> front_segment(const std::vector<BorderSegment>& segments) {
+    if (const auto* whole = segment_of(segments, "centre_front")) return *whole;
+    const auto* toe = segment_of(segments, "toe");
+    const auto* instep = segment_of(segments, "instep");
+    if (toe == nullptr || instep == nullptr) return std::nullopt;
+    if (toe->last == instep->first) return BorderSegment{"centre_front", toe->first, instep->last};
+    if (instep->last == toe->first) return BorderSegment{"centre_front", instep->first, toe->last};
+    return std::nullopt;
+}
+
+/// Length of the border from one place on, counter-clockwise, to another.
+double border_length(const Region& region, Index from, Index to) {
+    const std::size_t n = region.border.size();
+    double length = 0.0;
+    for (auto i = static_cast<std::size_t>(from); i != static_cast<std::size_t>(to); i = (i + 1) % n) {
+        length += region.distance(region.border[i], region.border[(i + 1) % n]);
+    }
+    return length;
 }
 
 struct Patch {
@@ -60,17 +80,17 @@ Vec2 direction_of(const Vec3& axis, const std::vector<Patch>& pieces) {
 
 }  // namespace
 
+/// Heel and centre front leave two stretches of border: the featherline's is the longer one.
 std::optional<BaseLine> named_base_line(const Region& region) {
-    const CurveRun* heel = run_of(region, {"heel"});
-    const CurveRun* front = run_of(region, {"centre_front", "toe", "instep"});
-    if (heel == nullptr || front == nullptr) return std::nullopt;
-    BaseLine best{heel->vertices.front(), front->vertices.front()};
-    for (const Index seat : {heel->vertices.front(), heel->vertices.back()}) {
-        for (const Index toe : {front->vertices.front(), front->vertices.back()}) {
-            if (region.distance(seat, toe) > region.distance(best.seat, best.toe)) best = {seat, toe};
-        }
+    const auto segments = border_segments(region);
+    const BorderSegment* heel = segment_of(segments, "heel");
+    const auto front = front_segment(segments);
+    if (heel == nullptr || !front) return std::nullopt;
+    const auto vertex = [&](Index place) { return region.border[static_cast<std::size_t>(place)]; };
+    if (border_length(region, heel->last, front->first) > border_length(region, front->last, heel->first)) {
+        return BaseLine{vertex(heel->last), vertex(front->first)};
     }
-    return best;
+    return BaseLine{vertex(heel->first), vertex(front->last)};
 }
 
 Vec3 long_axis(const std::vector<Region>& regions) {

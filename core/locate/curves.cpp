@@ -16,7 +16,7 @@ std::string millimetres(double length) {
                        std::optional<Vec3> position = std::nullopt) {
     Error error(ErrorCode::curve_invalid, "curve '" + source.name + "', item " +
                                               std::to_string(item) + ": " + what);
-    error.at_option("curves/" + source.name + "/vertices/" + std::to_string(item));
+    error.at_option({"curves", source.name, "vertices", std::to_string(item)});
     if (position) error.at_position(*position);
     throw error;
 }
@@ -53,7 +53,7 @@ Curve located(const SurfaceMesh& surface, const CurveSource& source) {
                     "curve '" + source.name + "' is given as \"" + source.unread_form +
                         "\", which this version does not read; give it as \"vertices\", a path of "
                         "mesh vertices")
-            .at_option("curves/" + source.name + "/" + source.unread_form);
+            .at_option({"curves", source.name, source.unread_form});
     }
     if (source.vertices.size() < 2) fail(source, 0, "a curve needs two vertices");
     Curve curve{source.name, {}};

@@ -27,7 +27,7 @@ void check_crossings(const Region& region, const Points2& uv, MethodName method,
                              " meets " + place(b);
     if (method == MethodName::isometric) {
         throw Error(ErrorCode::border_crosses, what + "; cut the region so that it opens wider")
-            .at_option("regions/" + region.name)
+            .at_option({"regions", region.name})
             .at_position(a);
     }
     warnings.push_back({"border_crosses", what, a});
@@ -43,7 +43,7 @@ void check_result(const Region& region, const Points2& uv, MethodName method, co
                         std::to_string(metrics.flipped_triangles) + " triangles are flipped," +
                         first_places(region, flipped_triangles(region, uv)) +
                         "; use the method \"isometric\", which never folds")
-            .at_option("method");
+            .at_option({"method"});
     }
     if (metrics.border_crossings > 0) check_crossings(region, uv, method, warnings);
     if (method != MethodName::isometric) return;
@@ -52,7 +52,7 @@ void check_result(const Region& region, const Points2& uv, MethodName method, co
         throw Error(ErrorCode::constraints_infeasible,
                     "region '" + region.name + "': locked curve '" + curve.name + "' is off by " +
                         std::to_string(curve.worst_edge_error_mm) + " mm on one edge")
-            .at_option("locks");
+            .at_option({"locks"});
     }
 }
 

@@ -28,7 +28,7 @@ void check_range(const char* option, double value, double low, double high) {
     if (value >= low && value <= high) return;
     std::ostringstream detail;
     detail << option << " is " << value << "; a sample last is made for " << low << " to " << high;
-    throw Error(ErrorCode::unsupported_request, detail.str()).at_option(option);
+    throw Error(ErrorCode::unsupported_request, detail.str()).at_option({option});
 }
 
 void check(const SampleLastOptions& options) {

@@ -38,7 +38,7 @@ std::vector<Triangle> selected_triangles(const RawMesh& raw, const std::vector<s
         if (!found) {
             throw Error(ErrorCode::group_not_found,
                         "group '" + groups[g] + "' does not exist: " + known_groups(raw))
-                .at_option("surface/groups/" + std::to_string(g));
+                .at_option({"surface", "groups", std::to_string(g)});
         }
     }
     std::vector<Triangle> result;

@@ -190,7 +190,7 @@ void ConnectionGate::read_head(Connection& connection) {
         if (head_size) hand_on(connection, *head_size);
         return;
     }
-    if (connection.bytes.find('\n') == std::string::npos) {
+    if (connection.bytes.find('\n') >= limits_.head_bytes) {  // or there is none
         return refuse(connection, Refusal(414, "target_too_long", "The request line is too long."));
     }
     refuse(connection, Refusal(431, "head_too_large",

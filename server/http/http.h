@@ -55,8 +55,8 @@ struct Route {
     std::string pattern;
     Handler handler;
     bool takes_body = false;  ///< without it a body is refused; only POST, PUT and PATCH can
-    bool express =
-        false;  ///< answered even when all connections are taken; must not block, no body
+    /// Answered even when all connections are taken. Must not block, and takes no body.
+    bool express = false;
 };
 
 struct ServerLimits {

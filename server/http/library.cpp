@@ -267,7 +267,7 @@ int HttpLibrary::Impl::bind(const std::string& host, int port) {
 
 bool HttpLibrary::Impl::accept_until_stopped() {
     if (!listener_owner_.is_open()) throw std::logic_error("run before bind");
-    constexpr int most_failures = 300;
+    constexpr int most_failures = 100;
     constexpr std::chrono::milliseconds pause{10};
     int failures = 0;
     while (!stopped_) {

@@ -100,6 +100,7 @@ TEST_SUITE("server/http/multipart") {
         CHECK(verdict(plain_type, "--XX \t\r\n" + named("m") + "\r\n\r\nx\r\n--XX-- \r\n") ==
               "1 parts");
         CHECK(only_part(named("m"), "a\r\n--XXY\r\nb").bytes == "a\r\n--XXY\r\nb");
+        CHECK(only_part(named("m"), "a\r\n--XX--Y\r\nb").bytes == "a\r\n--XX--Y\r\nb");
     }
 
     TEST_CASE("a form without parts is empty, not broken") {

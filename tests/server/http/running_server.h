@@ -137,6 +137,9 @@ private:
              }},
             {"GET", "/large",
              [](const Request&) { return text_response(std::string(large_size, 'x')); }},
+            // Far more than the kernel buffers for a client that does not read.
+            {"GET", "/huge",
+             [](const Request&) { return text_response(std::string(40 * large_size, 'x')); }},
             {"GET", "/throw",
              [](const Request&) -> Response { throw std::runtime_error("the secret"); }},
             {"GET", "/throw-int", [](const Request&) -> Response { throw 7; }},

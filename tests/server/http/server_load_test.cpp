@@ -1,6 +1,7 @@
 // What many, slow or broken clients do to the others; starting and stopping.
 #include <doctest/doctest.h>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -136,6 +137,7 @@ TEST_SUITE("server/http/server under load") {
         for (int i = 0; i < 3; ++i) {
             RawClient lazy(server.port());
             lazy.send(get("/huge"));
+            REQUIRE(lazy.receive_until("200 OK") != "");
             // The one thread is free again, or this would find nobody.
             CHECK(status_of(ask(server.port(), get("/echo"))) == 200);
         }
@@ -193,6 +195,15 @@ TEST_SUITE("server/http/server under load") {
         CHECK(status_of(client.receive()) == 408);
         server.join();
         CHECK(since(start) < milliseconds(5000));
+    }
+
+    TEST_CASE("the kernel queues hundreds of connections that are not yet accepted") {
+        Server server({}, {}, test_problem);
+        const int port = server.bind("127.0.0.1", 0);
+        tcp_info info{};
+        socklen_t size = sizeof info;
+        REQUIRE(::getsockopt(listeners(port).at(0), IPPROTO_TCP, TCP_INFO, &info, &size) == 0);
+        CHECK(info.tcpi_sacked >= 128);  // of a listening socket: its backlog
     }
 
     TEST_CASE("a server stopped before it runs does not run") {

@@ -1,0 +1,102 @@
+// The request of a flattening: the shoe-maker's constraints, as they stand on the wire.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lastflat::api {
+
+enum class Unit { mm, cm, m, in };
+enum class CurveForm { vertices, polyline, geodesic, border_of };
+enum class KeepLength { edges, total };
+enum class Method {
+    tutte, chord_length, shape_preserving, harmonic, wachspress, mean_value,
+    virtual_border, geodesic_fan, mips, green_lagrange, isometric
+};
+enum class Border { square, circle, hull, floating };
+enum class Angles { curvature, averaged_conformal };
+
+using Position = std::array<double, 3>;  ///< in the model's coordinates, scaled to mm
+
+struct PlaceRequest {  ///< one of both
+    std::optional<std::int32_t> vertex;
+    std::optional<Position> position;
+};
+
+/// The fields of its form are filled, the others empty.
+struct CurveRequest {
+    std::string name;
+    CurveForm form = CurveForm::vertices;
+    std::vector<std::int32_t> vertices;
+    std::vector<Position> polyline;
+    std::string from, to;
+    std::vector<std::string> via;
+    std::vector<std::string> border_of_groups;
+};
+
+struct RegionRequest {
+    std::string name;  ///< `exterior`, `interior` are read as `lateral`, `medial`
+    std::optional<PlaceRequest> contains;
+};
+
+struct LockRequest {
+    std::string curve;
+    KeepLength keep = KeepLength::edges;
+};
+
+struct MethodRequest {
+    Method name = Method::isometric;
+    std::optional<Border> border;
+    std::optional<Angles> angles;
+};
+
+/// Lengths in mm; vertex ids from 0, in file order.
+struct FlattenRequest {
+    std::optional<Unit> units;
+    std::vector<std::string> surface_groups;  ///< empty: every face
+    std::optional<double> weld_tolerance_mm;
+    std::vector<std::pair<std::string, PlaceRequest>> points;
+    std::vector<CurveRequest> curves;
+    std::vector<std::string> cuts;
+    std::vector<RegionRequest> regions;
+    std::vector<LockRequest> locks;
+    MethodRequest method;
+    std::string tag;
+};
+
+struct RequestLimits {
+    std::size_t bytes = 32u << 20;
+    int depth = 12;
+    std::size_t curves = 256;
+    std::size_t curve_vertices = 1'000'000;
+    std::size_t regions = 64;
+    std::size_t list = 1024;  ///< of any other list
+    std::size_t name_bytes = 128;
+};
+
+/// Reads the constraint JSON. Absent or empty text: every default.
+/// Throws: InvalidRequest naming the field; an unknown field is an error.
+[[nodiscard]] FlattenRequest flatten_request_from_json(std::string_view text,
+                                                       const RequestLimits& limits = {});
+
+/// A request sent as JSON alone: the model in base64 beside the constraints.
+struct JsonSubmission {
+    std::string model;  ///< decoded
+    FlattenRequest request;
+};
+
+/// Reads {"model": {"data": base64}, "request": {...}}; pointers begin at this document.
+/// Throws: InvalidRequest naming the field.
+[[nodiscard]] JsonSubmission json_submission_from_json(std::string_view text,
+                                                       const RequestLimits& limits = {});
+
+/// The wire's words, in the order of the enumerations.
+[[nodiscard]] const std::vector<std::string>& unit_names();
+[[nodiscard]] const std::vector<std::string>& method_names();
+
+}  // namespace lastflat::api

@@ -1,0 +1,83 @@
+#include "api/flatten_result.h"
+
+#include <nlohmann/json.hpp>
+
+namespace lastflat::api {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const CurveResult& c) {
+    return {{"name", c.name},
+            {"locked", c.locked},
+            {"length_3d_mm", c.length_3d_mm},
+            {"length_2d_mm", c.length_2d_mm},
+            {"error_mm", c.error_mm},
+            {"worst_edge_error_mm", c.worst_edge_error_mm},
+            {"verdict", c.verdict}};
+}
+
+Json to_json(const MetricsResult& m) {
+    return {{"stretch_l2", m.stretch_l2},
+            {"stretch_linf", m.stretch_linf},
+            {"stretch_l2_normalised", m.stretch_l2_normalised},
+            {"stretch_linf_normalised", m.stretch_linf_normalised},
+            {"symmetric_dirichlet", m.symmetric_dirichlet},
+            {"angle_distortion", m.angle_distortion},
+            {"area_3d_mm2", m.area_3d_mm2},
+            {"area_2d_mm2", m.area_2d_mm2},
+            {"area_error", m.area_error},
+            {"area_error_p95", m.area_error_p95},
+            {"area_verdict", m.area_verdict},
+            {"flipped_triangles", m.flipped_triangles},
+            {"border_crossings", m.border_crossings}};
+}
+
+Json to_json(const RegionResult& r) {
+    Json segments = Json::array(), curves = Json::array();
+    for (const auto& s : r.segments) {
+        segments.push_back({{"curve", s.curve}, {"first", s.first}, {"last", s.last}});
+    }
+    for (const auto& c : r.curves) curves.push_back(to_json(c));
+    return {{"name", r.name},
+            {"method", r.method},
+            {"uv_mm", r.uv_mm},
+            {"triangles", r.triangles},
+            {"source_vertices", r.source_vertices},
+            {"outline", {{"points_mm", r.outline_mm}, {"segments", std::move(segments)}}},
+            {"curves", std::move(curves)},
+            {"metrics", to_json(r.metrics)},
+            {"iterations", r.iterations}};
+}
+
+}  // namespace
+
+std::string to_json(const FlattenResult& result) {
+    Json regions = Json::array(), pairs = Json::array(), placements = Json::array(),
+         warnings = Json::array();
+    for (const auto& r : result.regions) regions.push_back(to_json(r));
+    for (const auto& p : result.pairs) {
+        pairs.push_back({{"curve", p.curve}, {"a", p.a}, {"b", p.b},
+                         {"difference_mm", p.difference_mm}, {"verdict", p.verdict}});
+    }
+    for (const auto& p : result.placements) {
+        placements.push_back({{"region", p.region}, {"rotation_deg", p.rotation_deg},
+                              {"translation_mm", p.translation_mm}, {"mirrored", p.mirrored}});
+    }
+    for (const auto& w : result.warnings) {
+        warnings.push_back({{"code", w.code}, {"detail", w.detail}});
+        if (w.position) warnings.back()["position"] = *w.position;
+    }
+    const Json document{{"regions", std::move(regions)},
+                        {"pairs", std::move(pairs)},
+                        {"layout", {{"width_mm", result.width_mm}, {"height_mm", result.height_mm},
+                                    {"placements", std::move(placements)}}},
+                        {"warnings", std::move(warnings)},
+                        {"timing_ms", {{"load", result.load_ms}, {"cut", result.cut_ms},
+                                       {"parameterize", result.parameterize_ms},
+                                       {"constrain", result.constrain_ms}, {"total", result.total_ms}}},
+                        {"version", result.version}};
+    return document.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace lastflat::api

@@ -1,0 +1,78 @@
+// The result of a flattening, as it stands on the wire. Lengths in mm.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lastflat::api {
+
+using Point = std::array<double, 2>;
+using Place = std::array<double, 3>;
+
+struct SegmentResult {
+    std::string curve;
+    std::int32_t first, last;
+};
+
+struct CurveResult {
+    std::string name;
+    bool locked;
+    double length_3d_mm, length_2d_mm, error_mm, worst_edge_error_mm;
+    std::string verdict;
+};
+
+struct MetricsResult {
+    double stretch_l2, stretch_linf, stretch_l2_normalised, stretch_linf_normalised;
+    double symmetric_dirichlet, angle_distortion;
+    double area_3d_mm2, area_2d_mm2, area_error, area_error_p95;
+    std::string area_verdict;
+    std::int32_t flipped_triangles, border_crossings;
+};
+
+struct RegionResult {
+    std::string name, method;
+    std::vector<Point> uv_mm;
+    std::vector<std::array<std::int32_t, 3>> triangles;
+    std::vector<std::int32_t> source_vertices;
+    std::vector<Point> outline_mm;
+    std::vector<SegmentResult> segments;
+    std::vector<CurveResult> curves;
+    MetricsResult metrics;
+    int iterations;
+};
+
+struct PairResult {
+    std::string curve, a, b;
+    double difference_mm;
+    std::string verdict;
+};
+
+struct PlacementResult {
+    std::string region;
+    double rotation_deg;
+    Point translation_mm;
+    bool mirrored;
+};
+
+struct WarningResult {
+    std::string code, detail;
+    std::optional<Place> position;
+};
+
+struct FlattenResult {
+    std::vector<RegionResult> regions;
+    std::vector<PairResult> pairs;
+    double width_mm = 0.0, height_mm = 0.0;
+    std::vector<PlacementResult> placements;
+    std::vector<WarningResult> warnings;
+    double load_ms = 0.0, cut_ms = 0.0, parameterize_ms = 0.0, constrain_ms = 0.0, total_ms = 0.0;
+    std::string version;
+};
+
+/// The body of GET /v1/jobs/{id}/result. The same result gives the same bytes.
+[[nodiscard]] std::string to_json(const FlattenResult& result);
+
+}  // namespace lastflat::api

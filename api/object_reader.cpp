@@ -1,0 +1,130 @@
+#include "api/object_reader.h"
+
+#include <cmath>
+#include <limits>
+
+namespace lastflat::api {
+
+using Json = nlohmann::json;
+
+Json parse_json(std::string_view text, int depth) {
+    std::vector<std::set<std::string>> names;  // of the objects that are open
+    const auto watch = [&](int level, Json::parse_event_t event, Json& parsed) {
+        if (level > depth) {
+            throw InvalidRequest("", "the JSON is nested deeper than " + std::to_string(depth) + " levels");
+        }
+        if (event == Json::parse_event_t::object_start) names.emplace_back();
+        if (event == Json::parse_event_t::object_end) names.pop_back();
+        if (event == Json::parse_event_t::key && !names.back().insert(parsed.get<std::string>()).second) {
+            throw InvalidRequest("", "the name '" + parsed.get<std::string>().substr(0, 80) +
+                                         "' stands twice in one object");
+        }
+        return true;
+    };
+    try {
+        return Json::parse(text.begin(), text.end(), watch);
+    } catch (const Json::exception& error) {
+        std::string what = error.what();  // "[json.exception.parse_error.101] parse error at line ..."
+        if (const auto end = what.find("] "); end != std::string::npos) what.erase(0, end + 2);
+        // The library quotes what it read last, which may be bytes that no JSON can carry back.
+        what = what.substr(0, what.find("; last read"));
+        throw InvalidRequest("", "the JSON cannot be read: " + what);
+    }
+}
+
+std::string step(const std::string& pointer, const std::string& name) {
+    std::string result = pointer + "/";
+    for (const char c : name) {
+        if (c == '~') result += "~0";
+        else if (c == '/') result += "~1";
+        else result += c;
+    }
+    return result;
+}
+
+std::string Field::text(std::size_t bytes) const {
+    if (!value.is_string()) fail("must be a text");
+    auto text = value.get<std::string>();
+    if (text.empty() || text.size() > bytes) {
+        fail("must have 1 to " + std::to_string(bytes) + " bytes");
+    }
+    for (const char c : text) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) fail("must not have control characters");
+    }
+    return text;
+}
+
+double Field::number(double least, double most) const {
+    if (!value.is_number()) fail("must be a number");
+    const auto number = value.get<double>();
+    if (!(number >= least && number <= most)) {
+        fail("must lie between " + Json(least).dump() + " and " + Json(most).dump());
+    }
+    return number;
+}
+
+std::int32_t Field::index() const {
+    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+    // A number above 2^63 is kept unsigned by the reader; comparing it as such keeps it too large.
+    const bool whole = value.is_number_unsigned()
+                           ? value.get<std::uint64_t>() <= static_cast<std::uint64_t>(most)
+                           : value.is_number_integer() && value.get<std::int64_t>() >= 0;
+    if (!whole) fail("must be a vertex id: a whole number from 0");
+    return static_cast<std::int32_t>(value.get<std::int64_t>());
+}
+
+std::vector<Field> Field::items(std::size_t most) const {
+    if (!value.is_array()) fail("must be a list");
+    if (value.size() > most) fail("must have at most " + std::to_string(most) + " items");
+    std::vector<Field> fields;
+    fields.reserve(value.size());
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        fields.push_back({value[i], pointer + "/" + std::to_string(i)});
+    }
+    return fields;
+}
+
+std::vector<std::pair<std::string, Field>> Field::entries(std::size_t most) const {
+    if (!value.is_object()) fail("must be an object");
+    if (value.size() > most) fail("must have at most " + std::to_string(most) + " entries");
+    std::vector<std::pair<std::string, Field>> fields;
+    for (const auto& [name, member] : value.items()) {
+        const Json as_value = name;
+        const Field checked{as_value, step(pointer, name)};
+        fields.emplace_back(checked.text(128), Field{member, step(pointer, name)});
+    }
+    return fields;
+}
+
+std::size_t Field::choice(const std::vector<std::string>& words) const {
+    if (value.is_string()) {
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            if (value.get_ref<const std::string&>() == words[i]) return i;
+        }
+    }
+    std::string list;
+    for (const auto& word : words) list += (list.empty() ? "" : ", ") + word;
+    fail("must be one of: " + list);
+}
+
+ObjectReader::ObjectReader(Field field) : field_(std::move(field)) {
+    if (!field_.value.is_object()) field_.fail("must be an object");
+}
+
+std::optional<Field> ObjectReader::find(const std::string& name) {
+    known_.insert(name);
+    const auto found = field_.value.find(name);
+    if (found == field_.value.end()) return std::nullopt;
+    return Field{*found, step(field_.pointer, name)};
+}
+
+void ObjectReader::finish() const {
+    for (const auto& [name, member] : field_.value.items()) {
+        if (known_.count(name) > 0) continue;
+        std::string list;
+        for (const auto& word : known_) list += (list.empty() ? "" : ", ") + word;
+        throw InvalidRequest(step(field_.pointer, name), "unknown field; known here: " + list);
+    }
+}
+
+}  // namespace lastflat::api

@@ -1,0 +1,62 @@
+// JSON from outside to values, once: every error names the field, and what nobody reads is refused.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace lastflat::api {
+
+/// The request breaks the contract. `pointer` (RFC 6901) names the field; empty: the whole document.
+class InvalidRequest : public std::runtime_error {
+public:
+    InvalidRequest(std::string pointer, const std::string& detail)
+        : std::runtime_error(detail), pointer_(std::move(pointer)) {}
+    [[nodiscard]] const std::string& pointer() const { return pointer_; }
+
+private:
+    std::string pointer_;
+};
+
+/// A document of at most `depth` levels, without repeated names.
+/// Throws: InvalidRequest saying where reading stopped.
+[[nodiscard]] nlohmann::json parse_json(std::string_view text, int depth);
+
+/// `pointer` extended by one step.
+[[nodiscard]] std::string step(const std::string& pointer, const std::string& name);
+
+/// One JSON value and where it stands.
+struct Field {
+    const nlohmann::json& value;
+    std::string pointer;
+
+    [[noreturn]] void fail(const std::string& what) const { throw InvalidRequest(pointer, what); }
+    /// Valid UTF-8 without control characters, 1 to `bytes` bytes.
+    [[nodiscard]] std::string text(std::size_t bytes) const;
+    [[nodiscard]] double number(double least, double most) const;
+    [[nodiscard]] std::int32_t index() const;
+    [[nodiscard]] std::vector<Field> items(std::size_t most) const;
+    /// Names and values of an object whose names are free.
+    [[nodiscard]] std::vector<std::pair<std::string, Field>> entries(std::size_t most) const;
+    /// One of the listed words; returns its place in the list.
+    [[nodiscard]] std::size_t choice(const std::vector<std::string>& words) const;
+};
+
+/// Reads the members of an object by name.
+class ObjectReader {
+public:
+    explicit ObjectReader(Field field);
+    [[nodiscard]] std::optional<Field> find(const std::string& name);
+    /// Throws: InvalidRequest naming the first member that was never looked for.
+    void finish() const;
+    [[nodiscard]] const Field& field() const { return field_; }
+
+private:
+    Field field_;
+    std::set<std::string> known_;
+};
+
+}  // namespace lastflat::api

@@ -1,0 +1,22 @@
+// Problem documents (RFC 9457): what every error looks like on the wire.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace lastflat::api {
+
+struct Problem {
+    int status = 500;
+    std::string code;    ///< stable, for programs
+    std::string title;   ///< the code in words; empty: made from it
+    std::string detail;  ///< what, where, and the mend, for people
+    std::optional<std::string> pointer;              ///< the field of the request at fault
+    std::optional<std::array<double, 3>> position;   ///< the place on the last, mm
+};
+
+/// application/problem+json.
+[[nodiscard]] std::string to_json(const Problem& problem);
+
+}  // namespace lastflat::api

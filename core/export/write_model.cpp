@@ -1,0 +1,123 @@
+#include "core/export/write_model.h"
+
+#include <cstdarg>
+#include <cstdio>
+#include <map>
+
+#include "core/export/glb_container.h"
+
+namespace lastflat {
+namespace {
+
+[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
+    char line[160];
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = std::vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    text.append(line, static_cast<std::size_t>(std::min<int>(length, sizeof line - 1)));
+}
+
+/// A name as one OBJ word.
+std::string obj_word(std::string name) {
+    for (char& c : name) {
+        if (static_cast<unsigned char>(c) <= ' ' || c == '#') c = '_';
+    }
+    return name.empty() ? "_" : name;
+}
+
+Points3 in_metres(const Points3& millimetres) {
+    Points3 metres;
+    for (const Vec3& p : millimetres) metres.push_back(p / 1000.0);
+    return metres;
+}
+
+/// The triangles of each label set, in the order of the sets.
+std::map<std::uint32_t, std::vector<Triangle>> by_label(const RawMesh& mesh) {
+    std::map<std::uint32_t, std::vector<Triangle>> groups;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        groups[mesh.triangle_labels[t]].push_back(mesh.triangles[t]);
+    }
+    return groups;
+}
+
+std::string group_name(const RawMesh& mesh, std::uint32_t label) {
+    std::string name;
+    for (const auto& word : mesh.label_sets[label]) name += (name.empty() ? "" : " ") + obj_word(word);
+    return name;
+}
+
+}  // namespace
+
+std::string write_flat_obj(const FlattenResult& result) {
+    std::string text = "# lastflat: v in mm on the last, vt in mm on the flat piece\n";
+    Index offset = 1;
+    for (const FlatRegion& flat : result.regions) {
+        append(text, "g %s\n", obj_word(flat.region.name).substr(0, 120).c_str());
+        for (const Vec3& p : flat.region.positions) {
+            append(text, "v %.9g %.9g %.9g\n", p.x(), p.y(), p.z());
+        }
+        for (const Vec2& p : flat.chart.uv) append(text, "vt %.12g %.12g\n", p.x(), p.y());
+        for (const Triangle& t : flat.region.triangles) {
+            const Index a = t[0] + offset, b = t[1] + offset, c = t[2] + offset;
+            append(text, "f %d/%d %d/%d %d/%d\n", a, a, b, b, c, c);
+        }
+        offset += static_cast<Index>(flat.region.positions.size());
+    }
+    return text;
+}
+
+std::string write_flat_glb(const FlattenResult& result) {
+    GlbContainer glb;
+    auto& document = glb.document();
+    auto& nodes = document["nodes"];
+    auto roots = nlohmann::ordered_json::array();
+    for (std::size_t r = 0; r < result.regions.size(); ++r) {
+        const FlatRegion& flat = result.regions[r];
+        Points2 placed;
+        for (const Vec2& p : flat.chart.uv) placed.push_back(result.sheet.placements[r].apply(p));
+        const auto positions = glb.add_positions(in_metres(flat.region.positions));
+        const auto coordinates = glb.add_texture_coordinates(placed);
+        const auto indices = glb.add_indices(flat.region.triangles);
+        document["meshes"].push_back(
+            {{"name", flat.region.name},
+             {"primitives",
+              {{{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", coordinates}}},
+                {"indices", indices}}}}});
+        roots.push_back(nodes.size());
+        nodes.push_back({{"name", flat.region.name}, {"mesh", r}});
+    }
+    document["scenes"].push_back(
+        {{"nodes", roots}, {"extras", {{"sheet_mm", {result.sheet.width, result.sheet.height}}}}});
+    return glb.write();
+}
+
+std::string write_model_obj(const RawMesh& mesh) {
+    std::string text = "# mm\n";
+    for (const Vec3& p : mesh.positions) append(text, "v %.4f %.4f %.4f\n", p.x(), p.y(), p.z());
+    for (const auto& [label, triangles] : by_label(mesh)) {
+        text += "g " + group_name(mesh, label) + "\n";
+        for (const Triangle& t : triangles) append(text, "f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    }
+    return text;
+}
+
+std::string write_model_glb(const RawMesh& mesh) {
+    GlbContainer glb;
+    auto& document = glb.document();
+    const auto positions = glb.add_positions(in_metres(mesh.positions));
+    auto primitives = nlohmann::ordered_json::array();
+    document["materials"] = nlohmann::ordered_json::array();
+    for (const auto& [label, triangles] : by_label(mesh)) {
+        primitives.push_back({{"attributes", {{"POSITION", positions}}},
+                              {"indices", glb.add_indices(triangles)},
+                              {"material", document["materials"].size()}});
+        document["materials"].push_back({{"name", group_name(mesh, label)}});
+    }
+    document["meshes"].push_back({{"name", "last"}, {"primitives", primitives}});
+    document["nodes"].push_back({{"name", "last"}, {"mesh", 0}});
+    document["scenes"].push_back({{"nodes", {0}}});
+    return glb.write();
+}
+
+}  // namespace lastflat

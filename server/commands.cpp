@@ -1,0 +1,124 @@
+#include "server/commands.h"
+
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "api/flatten_request.h"
+#include "core/export/write_model.h"
+#include "server/problem_map.h"
+#include "server/run_job.h"
+#include "server/translate.h"
+
+namespace lastflat::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+int report(const api::Problem& problem) {
+    std::cerr << api::to_json(problem) << std::endl;
+    return is_bad_input(problem) ? 2 : 1;
+}
+
+api::Problem file_problem(int status, const std::string& detail) {
+    return {status, status < 500 ? "file_unreadable" : "file_unwritable", "", detail, std::nullopt, std::nullopt};
+}
+
+std::optional<std::string> file_bytes(const fs::path& path) {
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) return std::nullopt;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return std::nullopt;
+    std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    if (file.bad()) return std::nullopt;
+    return bytes;
+}
+
+using Files = std::vector<std::pair<std::string, std::string_view>>;
+
+/// Writes all files beside their places, then moves them there; on failure none is left.
+void write_files(const fs::path& directory, const Files& files) {
+    fs::create_directories(directory);
+    const auto beside = [&](const std::string& name) { return directory / ("." + name + ".part"); };
+    try {
+        for (const auto& [name, bytes] : files) {
+            std::ofstream file(beside(name), std::ios::binary | std::ios::trunc);
+            file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+            file.close();
+            if (!file) throw std::runtime_error("cannot write " + (directory / name).string());
+        }
+        for (const auto& [name, bytes] : files) fs::rename(beside(name), directory / name);
+    } catch (...) {
+        std::error_code ignored;
+        for (const auto& [name, bytes] : files) fs::remove(beside(name), ignored);
+        throw;
+    }
+}
+
+int write_or_report(const fs::path& directory, const Files& files) {
+    try {
+        write_files(directory, files);
+    } catch (const std::exception& error) {
+        return report(file_problem(500, error.what()));
+    }
+    return 0;
+}
+
+std::string sample_request(const SampleLast& last) {
+    nlohmann::ordered_json curves;
+    for (const auto& [name, vertices] : last.curves) curves[name] = {{"vertices", vertices}};
+    const nlohmann::ordered_json request{
+        {"units", "mm"},
+        {"surface", {{"groups", {"upper"}}}},
+        {"curves", curves},
+        {"cuts", {"centre_front", "heel"}},
+        {"regions",
+         {{"lateral", {{"contains", {{"vertex", last.lateral_vertex}}}}},
+          {"medial", {{"contains", {{"vertex", last.medial_vertex}}}}}}},
+        {"locks", {{{"curve", "centre_front"}}, {{"curve", "heel"}}}},
+        {"method", {{"name", "isometric"}}}};
+    return request.dump() + "\n";
+}
+
+}  // namespace
+
+int flatten_command(const fs::path& model, const std::optional<fs::path>& request,
+                    const fs::path& directory) {
+    auto bytes = file_bytes(model);
+    if (!bytes) return report(file_problem(404, "cannot read the model " + model.string()));
+    std::optional<std::string> constraints = request ? file_bytes(*request) : std::string();
+    if (!constraints) return report(file_problem(404, "cannot read the request " + request->string()));
+    JobInput input;
+    try {
+        const auto wire = api::flatten_request_from_json(*constraints);
+        input = {std::make_shared<const std::string>(std::move(*bytes)), to_options(wire), wire.tag};
+    } catch (const api::InvalidRequest& error) {
+        return report(problem_of(error));
+    } catch (const Error& error) {
+        return report(problem_of(error));
+    }
+    input.options.threads = std::max(1u, std::thread::hardware_concurrency());
+    Progress progress;
+    const JobOutcome outcome = run_job(input, progress);
+    if (!outcome.output) return report(outcome.error.value());
+    return write_or_report(directory, {{"result.json", *outcome.output->json},
+                                       {"flat.obj", *outcome.output->obj},
+                                       {"flat.glb", *outcome.output->glb},
+                                       {"pattern.svg", *outcome.output->svg}});
+}
+
+int sample_last_command(const SampleLastOptions& options, const fs::path& directory) {
+    SampleLast last;
+    try {
+        last = make_sample_last(options);
+    } catch (const Error& error) {
+        return report(problem_of(error));
+    }
+    const std::string obj = write_model_obj(last.mesh), glb = write_model_glb(last.mesh),
+                      request = sample_request(last);
+    return write_or_report(directory,
+                           {{"last.obj", obj}, {"last.glb", glb}, {"last.request.json", request}});
+}
+
+}  // namespace lastflat::server

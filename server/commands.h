@@ -1,0 +1,22 @@
+// What the program does without a server.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "core/sample/sample_last.h"
+
+namespace lastflat::server {
+
+/// Flattens MODEL and writes DIR/result.json, flat.obj, flat.glb and pattern.svg: all of them or none.
+/// Returns the exit code: 0 done; 2 bad input, 1 anything else, with a problem document on standard
+/// error.
+[[nodiscard]] int flatten_command(const std::filesystem::path& model,
+                                  const std::optional<std::filesystem::path>& request,
+                                  const std::filesystem::path& directory);
+
+/// Writes DIR/last.obj, last.glb and last.request.json. Exit codes as above.
+[[nodiscard]] int sample_last_command(const SampleLastOptions& options,
+                                      const std::filesystem::path& directory);
+
+}  // namespace lastflat::server

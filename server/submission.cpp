@@ -1,0 +1,56 @@
+#include "server/submission.h"
+
+#include "api/base64.h"
+#include "api/flatten_request.h"
+#include "server/translate.h"
+
+namespace lastflat::server {
+namespace {
+
+[[noreturn]] void refuse(int status, const char* code, const std::string& detail) {
+    throw Refusal({status, code, "", detail, std::nullopt, std::nullopt});
+}
+
+JobInput job_input(std::string model, const api::FlattenRequest& request) {
+    if (model.empty()) refuse(422, "model_missing", "the model is empty (0 bytes)");
+    return {std::make_shared<const std::string>(std::move(model)), to_options(request), request.tag};
+}
+
+JobInput from_parts(const http::Request& request) {
+    const http::BodyPart* model = nullptr;
+    const http::BodyPart* constraints = nullptr;
+    for (const http::BodyPart& part : request.body) {
+        const auto take = [&](const http::BodyPart*& place) {
+            if (place != nullptr) refuse(400, "part_repeated", "the part '" + part.name + "' is there twice");
+            place = &part;
+        };
+        if (part.name == "model") take(model);
+        else if (part.name == "request") take(constraints);
+        else refuse(400, "part_unknown", "unknown part '" + part.name + "'; known are model and request");
+    }
+    if (model == nullptr) refuse(422, "model_missing", "the part 'model' is missing: send the last's file as it");
+    return job_input(model->bytes, api::flatten_request_from_json(constraints ? constraints->bytes : ""));
+}
+
+JobInput from_model_alone(const http::Request& request) {
+    const std::string_view header = request.header("x-flatten-constraints");
+    const auto constraints = api::decode_base64(header);
+    if (!constraints) {
+        refuse(400, "header_invalid", "X-Flatten-Constraints is not base64url");
+    }
+    return job_input(request.body.empty() ? "" : request.body.front().bytes,
+                     api::flatten_request_from_json(*constraints));
+}
+
+}  // namespace
+
+JobInput read_submission(const http::Request& request) {
+    if (!request.body.empty() && !request.body.front().name.empty()) return from_parts(request);
+    if (!request.body.empty() && request.body.front().media_type == "application/json") {
+        auto submission = api::json_submission_from_json(request.body.front().bytes);
+        return job_input(std::move(submission.model), submission.request);
+    }
+    return from_model_alone(request);
+}
+
+}  // namespace lastflat::server

@@ -1,0 +1,167 @@
+#include "server/translate.h"
+
+#include <numbers>
+
+#include "server/version.h"
+
+namespace lastflat::server {
+namespace {
+
+double millimetres(api::Unit unit) {
+    switch (unit) {
+        case api::Unit::mm: return 1.0;
+        case api::Unit::cm: return 10.0;
+        case api::Unit::m: return 1000.0;
+        case api::Unit::in: return 25.4;
+    }
+    return 1.0;
+}
+
+std::string form_name(api::CurveForm form) {
+    switch (form) {
+        case api::CurveForm::vertices: return {};
+        case api::CurveForm::polyline: return "polyline";
+        case api::CurveForm::geodesic: return "from";
+        case api::CurveForm::border_of: return "border_of";
+    }
+    return {};
+}
+
+MethodOptions method_of(const api::MethodRequest& request) {
+    MethodOptions method;
+    switch (request.name) {
+        case api::Method::mean_value: method.name = MethodName::mean_value; break;
+        case api::Method::geodesic_fan: method.name = MethodName::geodesic_fan; break;
+        case api::Method::isometric: method.name = MethodName::isometric; break;
+        case api::Method::tutte:
+        case api::Method::chord_length:
+        case api::Method::shape_preserving:
+        case api::Method::harmonic:
+        case api::Method::wachspress:
+        case api::Method::virtual_border:
+        case api::Method::mips:
+        case api::Method::green_lagrange:
+            throw Error(ErrorCode::unsupported_request,
+                        "the method \"" + api::method_names()[static_cast<std::size_t>(request.name)] +
+                            "\" is not in this version; there are isometric, geodesic_fan and mean_value")
+                .at_option({"method", "name"});
+    }
+    switch (request.border.value_or(api::Border::circle)) {
+        case api::Border::circle: method.border = BorderShape::circle; break;
+        case api::Border::square: method.border = BorderShape::square; break;
+        case api::Border::hull:
+        case api::Border::floating:
+            throw Error(ErrorCode::unsupported_request,
+                        "this border is not in this version; there are circle and square")
+                .at_option({"method", "border"});
+    }
+    method.angles = request.angles.value_or(api::Angles::curvature) == api::Angles::curvature
+                        ? AngleRule::curvature
+                        : AngleRule::averaged_conformal;
+    return method;
+}
+
+std::string word(MethodName method) {
+    switch (method) {
+        case MethodName::mean_value: return "mean_value";
+        case MethodName::geodesic_fan: return "geodesic_fan";
+        case MethodName::isometric: return "isometric";
+    }
+    return {};
+}
+
+std::string word(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::pass: return "pass";
+        case Verdict::warn: return "warn";
+        case Verdict::fail: return "fail";
+    }
+    return {};
+}
+
+std::vector<api::Point> to_wire(const Points2& points) {
+    std::vector<api::Point> result;
+    result.reserve(points.size());
+    for (const Vec2& p : points) result.push_back({p.x(), p.y()});
+    return result;
+}
+
+api::MetricsResult to_wire(const Metrics& m) {
+    return {m.stretch_l2, m.stretch_linf, m.stretch_l2_normalised, m.stretch_linf_normalised,
+            m.symmetric_dirichlet, m.angle_distortion, m.area_3d_mm2, m.area_2d_mm2, m.area_error,
+            m.area_error_p95, word(m.area_verdict), m.flipped_triangles, m.border_crossings};
+}
+
+api::RegionResult to_wire(const FlatRegion& flat, MethodName method) {
+    api::RegionResult region;
+    region.name = flat.region.name;
+    region.method = word(method);
+    region.uv_mm = to_wire(flat.chart.uv);
+    region.triangles.assign(flat.region.triangles.begin(), flat.region.triangles.end());
+    region.source_vertices = flat.region.source_vertices;
+    region.outline_mm = to_wire(flat.outline.points);
+    for (const auto& s : flat.outline.segments) region.segments.push_back({s.curve, s.first, s.last});
+    for (const auto& c : flat.curves) {
+        region.curves.push_back({c.name, c.locked, c.length_3d_mm, c.length_2d_mm, c.error_mm,
+                                 c.worst_edge_error_mm, word(c.verdict)});
+    }
+    region.metrics = to_wire(flat.metrics);
+    region.iterations = flat.iterations;
+    return region;
+}
+
+}  // namespace
+
+FlattenOptions to_options(const api::FlattenRequest& request) {
+    FlattenOptions options;
+    if (request.units) options.weld.unit_mm = millimetres(*request.units);
+    options.weld.groups = request.surface_groups;
+    options.weld.tolerance_mm = request.weld_tolerance_mm;
+    for (const auto& curve : request.curves) {
+        options.curves.push_back({curve.name, curve.vertices, form_name(curve.form)});
+    }
+    options.cut.cuts = request.cuts;
+    for (const auto& region : request.regions) {
+        RegionChoice choice{region.name, {}, {}};
+        if (region.contains) {
+            choice.vertex = region.contains->vertex;
+            if (const auto& p = region.contains->position) choice.position = Vec3((*p)[0], (*p)[1], (*p)[2]);
+        }
+        options.cut.regions.push_back(choice);
+    }
+    for (const auto& lock : request.locks) {
+        options.locks.push_back(
+            {lock.curve, lock.keep == api::KeepLength::edges ? Keep::edges : Keep::total});
+    }
+    options.method = method_of(request.method);
+    return options;
+}
+
+api::FlattenResult to_wire(const FlattenResult& result) {
+    api::FlattenResult wire;
+    for (const auto& flat : result.regions) wire.regions.push_back(to_wire(flat, result.method));
+    for (const auto& p : result.pairs) {
+        wire.pairs.push_back({p.curve, p.a, p.b, p.difference_mm, word(p.verdict)});
+    }
+    wire.width_mm = result.sheet.width;
+    wire.height_mm = result.sheet.height;
+    for (std::size_t r = 0; r < result.regions.size(); ++r) {
+        const Placement& p = result.sheet.placements[r];
+        wire.placements.push_back({result.regions[r].region.name, p.rotation * 180.0 / std::numbers::pi,
+                                   {p.translation.x(), p.translation.y()}, p.mirrored});
+    }
+    for (const auto& w : result.warnings) {
+        wire.warnings.push_back({w.code, w.detail, std::nullopt});
+        if (w.position) wire.warnings.back().position = {w.position->x(), w.position->y(), w.position->z()};
+    }
+    const Timing& t = result.timing;
+    wire.load_ms = t.load_ms;
+    wire.cut_ms = t.cut_ms;
+    wire.parameterize_ms = t.parameterize_ms;
+    wire.constrain_ms = t.constrain_ms;
+    wire.total_ms = t.total_ms;
+    wire.version = version;
+    return wire;
+}
+
+}  // namespace lastflat::server

@@ -1,0 +1,15 @@
+// The only file that knows both the wire's types and core's.
+#pragma once
+
+#include "api/flatten_request.h"
+#include "api/flatten_result.h"
+#include "core/flatten.h"
+
+namespace lastflat::server {
+
+/// Throws: Error{unsupported_request} for a method that this version does not have.
+[[nodiscard]] FlattenOptions to_options(const api::FlattenRequest& request);
+
+[[nodiscard]] api::FlattenResult to_wire(const FlattenResult& result);
+
+}  // namespace lastflat::server

@@ -1,0 +1,190 @@
+#!/usr/bin/env python3
+"""Attacks a running server and checks how it answers.
+
+    attacks.py PORT [--get PATH] [--post PATH] [--body-bytes N]
+
+PATH of --get is a cheap route for GET, that of --post a route that takes a body of any type; N is the
+server's limit for a body. Exit status 0: every attack was answered as it should be.
+"""
+import argparse
+import resource
+import socket
+import sys
+import time
+
+failures = []
+
+
+def connect(port, timeout=20.0):
+    return socket.create_connection(("127.0.0.1", port), timeout)
+
+
+def receive(client):
+    received = b""
+    try:
+        while True:
+            step = client.recv(65536)
+            if not step:
+                break
+            received += step
+    except OSError:
+        pass
+    return received
+
+
+def send_all(client, pieces):
+    """Sends until the server stops it; returns how many bytes went out."""
+    sent = 0
+    try:
+        for piece in pieces:
+            client.sendall(piece)
+            sent += len(piece)
+    except OSError:
+        pass
+    return sent
+
+
+def status(answer):
+    return int(answer[9:12]) if answer.startswith(b"HTTP/1.1 ") else 0
+
+
+def final_status(answer):
+    while status(answer) == 100:
+        answer = answer.partition(b"\r\n\r\n")[2]
+    return status(answer)
+
+
+def check(name, wanted, found, note=""):
+    wanted = wanted if isinstance(wanted, tuple) else (wanted,)
+    good = found in wanted
+    print(f"{'ok  ' if good else 'FAIL'} {name}: {found} {note}")
+    if not good:
+        failures.append(name)
+
+
+class Attacks:
+    def __init__(self, options):
+        self.port = options.port
+        self.get = options.get.encode()
+        self.post = options.post.encode()
+        self.body_bytes = options.body_bytes
+
+    def get_head(self, headers=b""):
+        return b"GET " + self.get + b" HTTP/1.1\r\nHost: a\r\n" + headers + b"\r\n"
+
+    def post_head(self, headers=b""):
+        return b"POST " + self.post + b" HTTP/1.1\r\nHost: a\r\n" + headers + b"\r\n"
+
+    def ask(self, raw):
+        with connect(self.port) as client:
+            send_all(client, [raw])
+            return receive(client)
+
+    def row(self, name, raw, wanted):
+        start = time.monotonic()
+        answer = self.ask(raw)
+        note = f"({(time.monotonic() - start) * 1000:.0f} ms, {answer.count(b'HTTP/1.1 ')} answers)"
+        check(name, wanted, final_status(answer), note)
+        if answer.replace(b"HTTP/1.1 100", b"").count(b"HTTP/1.1 ") > 1:
+            failures.append(name + ": more than one answer")
+
+    def heads(self):
+        self.row("plain GET", self.get_head(), 200)
+        for value in (b"abc", b"0x5", b"+5", b"5, 5", b"-1"):
+            self.row(f"Content-Length {value}", self.post_head(b"Content-Length: " + value + b"\r\n"), 400)
+        self.row("Content-Length 2^64", self.post_head(b"Content-Length: 18446744073709551616\r\n"), 413)
+        self.row("Content-Length 1e11, no body", self.post_head(b"Content-Length: 100000000000\r\n"), 413)
+        self.row("two Content-Length", self.post_head(b"Content-Length: 5\r\nContent-Length: 6\r\n"), 400)
+        self.row("TE and CL", self.post_head(b"Content-Length: 4\r\nTransfer-Encoding: chunked\r\n") +
+                 b"0\r\n\r\n" + self.get_head(), 400)
+        self.row("xchunked", self.post_head(b"Transfer-Encoding: xchunked\r\n"), 501)
+        self.row("gzip, chunked", self.post_head(b"Transfer-Encoding: gzip, chunked\r\n"), 501)
+        self.row("gzip body", self.post_head(b"Content-Encoding: gzip\r\nContent-Length: 9\r\n"), 415)
+        self.row("POST without length", self.post_head(), (200, 400, 411, 415, 422))
+        self.row("GET with a body that is a request",
+                 self.get_head(b"Content-Length: 40\r\n") + self.get_head(), 400)
+        self.row("three pipelined GETs", self.get_head() * 3, 200)
+        self.row("no Host", b"GET " + self.get + b" HTTP/1.1\r\n\r\n", 400)
+        self.row("absolute URI", b"GET http://a/ HTTP/1.1\r\nHost: a\r\n\r\n", 400)
+        self.row("unknown method", b"BREW / HTTP/1.1\r\nHost: a\r\n\r\n", 501)
+        self.row("wrong method", b"DELETE " + self.get + b" HTTP/1.1\r\nHost: a\r\n\r\n", 405)
+        self.row("encoded CR LF in a header", self.get_head(b"X: a%20b%0d%0aX: y\r\n"), 400)
+        self.row("NUL in a header", self.get_head(b"X: a\0b\r\n"), 400)
+        for text in (b"%00", b"%0d%0a", b"%7f", b"%ff"):
+            self.row(f"{text} in the path", b"GET /a" + text + b" HTTP/1.1\r\nHost: a\r\n\r\n", 400)
+        self.row("%2f in the path", b"GET /a%2fb HTTP/1.1\r\nHost: a\r\n\r\n", 404)
+        self.row("folded header", self.get_head(b"X: a\r\n b\r\n"), 400)
+        self.row("bare LF", b"GET / HTTP/1.1\nHost: a\n\n", 400)
+        self.row("TLS hello", b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + bytes(500), 400)
+        self.row("2600 ranges", self.get_head(b"Range: bytes=" + b"0-," * 2599 + b"0-\r\n"), 400)
+        self.row("range past the end", self.get_head(b"Range: bytes=0-9999999999\r\n"), 200)
+
+    def sizes(self):
+        self.row("URI of 8180 bytes", b"GET /" + b"a" * 8180 + b" HTTP/1.1\r\nHost: a\r\n\r\n", 414)
+        self.row("header of 20000 bytes", self.get_head(b"X: " + b"a" * 20000 + b"\r\n"), 431)
+        self.row("101 headers", self.get_head(b"".join(b"X%d: y\r\n" % i for i in range(100))), 431)
+        self.row("100000 headers", self.get_head(b"X: y\r\n" * 100000), 431)
+        self.stream("request line of 1 GiB", b"GET /", b"a" * 65536, 1 << 30, (0, 414))
+        self.stream("header line of 64 MiB", b"GET / HTTP/1.1\r\nX: ", b"a" * 65536, 64 << 20, (0, 431))
+        chunk = b"10000\r\n" + b"x" * 65536 + b"\r\n"
+        chunked = self.post_head(b"Transfer-Encoding: chunked\r\n")
+        self.stream("chunked body over the limit", chunked, chunk, self.body_bytes + (64 << 20), (0, 413))
+        self.stream("announced body over the limit",
+                    self.post_head(b"Content-Length: %d\r\n" % (self.body_bytes + 1)), chunk,
+                    self.body_bytes, (0, 413))
+        for text in (b"-2\r\n", b"0x5\r\nhello\r\n0\r\n\r\n", b" 5\r\nhello\r\n0\r\n\r\n", b"5\nhello\n0\n\n",
+                     b"5\r\nhello0\r\n\r\n", b"0\r\nX: y\r\n\r\n", b"ffffffffffffffff1\r\n"):
+            self.row(f"chunk {text[:14]}", chunked + text, (400, 413))
+
+    def stream(self, name, head, piece, most, wanted):
+        start = time.monotonic()
+        with connect(self.port) as client:
+            sent = send_all(client, [head] + [piece] * (most // len(piece)))
+            answer = receive(client)
+        note = f"({sent} bytes went out in {time.monotonic() - start:.2f} s)"
+        check(name, wanted, final_status(answer), note)
+        if sent > most // 2 and most > self.body_bytes * 2:
+            failures.append(name + ": the server read on")
+
+    def crowds(self):
+        most = resource.getrlimit(resource.RLIMIT_NOFILE)[0] - 100
+        for count in (64, 1000, 10000):
+            if count > most:
+                print(f"skip {count} idle connections: the limit on open files is too low")
+                continue
+            clients = [connect(self.port) for _ in range(count)]
+            self.ping(f"GET beside {count} idle connections")
+            for client in clients:
+                client.close()
+        slow = [connect(self.port) for _ in range(64)]
+        for client in slow:
+            send_all(client, [b"GET / HTTP/1.1\r\nX: "])
+        self.ping("GET beside 64 slow heads")
+        for client in slow:
+            client.close()
+
+    def ping(self, name):
+        start = time.monotonic()
+        answer = self.ask(self.get_head())
+        elapsed = time.monotonic() - start
+        check(name, 200, final_status(answer), f"({elapsed * 1000:.1f} ms)")
+        if elapsed > 1.0:
+            failures.append(name + ": too slow")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("port", type=int)
+    parser.add_argument("--get", default="/healthz")
+    parser.add_argument("--post", default="/v1/jobs")
+    parser.add_argument("--body-bytes", type=int, default=256 << 20)
+    attacks = Attacks(parser.parse_args())
+    attacks.heads()
+    attacks.sizes()
+    attacks.crowds()
+    print("\n".join(["failed: " + name for name in failures]) or "all as it should be")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
