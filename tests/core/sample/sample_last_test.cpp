@@ -545,12 +545,12 @@ TEST_SUITE("core/sample/sample_last") {
             return "nothing";
         };
         CHECK(refused({}) == "nothing");
-        CHECK(refused({29.9, 20.0, 8.0, 0.0, ToeShape::round}) == "size_eu");
-        CHECK(refused({50.1, 20.0, 8.0, 0.0, ToeShape::round}) == "size_eu");
-        CHECK(refused({42.0, -1.0, 8.0, 0.0, ToeShape::round}) == "heel_height_mm");
-        CHECK(refused({42.0, 80.1, 8.0, 0.0, ToeShape::round}) == "heel_height_mm");
-        CHECK(refused({42.0, 20.0, 25.1, 0.0, ToeShape::round}) == "toe_spring_mm");
-        CHECK(refused({42.0, 20.0, 8.0, -15.1, ToeShape::round}) == "extra_girth_mm");
-        CHECK(refused({std::nan(""), 20.0, 8.0, 0.0, ToeShape::round}) == "size_eu");
+        CHECK(refused({29.9, 20.0, 8.0, 0.0, ToeShape::round}) == "/size_eu");
+        CHECK(refused({50.1, 20.0, 8.0, 0.0, ToeShape::round}) == "/size_eu");
+        CHECK(refused({42.0, -1.0, 8.0, 0.0, ToeShape::round}) == "/heel_height_mm");
+        CHECK(refused({42.0, 80.1, 8.0, 0.0, ToeShape::round}) == "/heel_height_mm");
+        CHECK(refused({42.0, 20.0, 25.1, 0.0, ToeShape::round}) == "/toe_spring_mm");
+        CHECK(refused({42.0, 20.0, 8.0, -15.1, ToeShape::round}) == "/extra_girth_mm");
+        CHECK(refused({std::nan(""), 20.0, 8.0, 0.0, ToeShape::round}) == "/size_eu");
     }
 }

@@ -1,0 +1,92 @@
+#!/usr/bin/env bash
+# Flattens a last: sends it, waits, saves the pattern and prints what became of every curve.
+#
+#   flatten.sh LAST [REQUEST]      LAST: OBJ, glTF or GLB; REQUEST: the constraint JSON
+#
+# LASTFLAT_URL  the server; default http://127.0.0.1:8080
+# OUT           the folder for result.json, pattern.svg and flat.glb; default: a folder with the last's name, here
+#
+# Ends with 0; with 2 if the last or the request is at fault; with 1 if anything else is. Needs curl and jq.
+set -euo pipefail
+
+[[ $# -ge 1 && $# -le 2 ]] || { sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+last=$1 request=${2:-}
+url=${LASTFLAT_URL:-http://127.0.0.1:8080}
+name=$(basename -- "$last")
+out=${OUT:-./${name%.*}}
+for file in "$last" ${request:+"$request"}; do
+    [[ -f $file && -r $file ]] || { echo "flatten.sh: cannot read $file" >&2; exit 2; }
+done
+temporary=$(mktemp -d)
+trap 'rm -rf -- "$temporary"' EXIT
+
+# Prints a problem document and ends: 2 if the request is at fault, 1 if the server is.
+fail() {  # status, file
+    jq -r '"flatten.sh: \(.detail)", (.pointer // empty | "  at: \(.)"), "  code: \(.code)"' "$2" >&2 2>/dev/null ||
+        echo "flatten.sh: the server answered with $1" >&2
+    if [[ $1 == 4* ]]; then exit 2; fi
+    exit 1
+}
+
+# Runs curl; the body goes to a file, the headers to another, the status to $status.
+ask() {  # body file, curl's arguments...
+    status=$(curl -sS -g -o "$1" -D "$temporary/headers" -w '%{http_code}' "${@:2}") || exit 1
+}
+
+retry_after() {
+    sed -n 's/^[Rr]etry-[Aa]fter: *\([0-9]*\).*/\1/p' "$temporary/headers" | tail -n 1
+}
+
+# curl gives ; and , and " in a file's name a meaning of their own, so it gets the bytes by another name.
+ln -s -- "$(realpath -- "$last")" "$temporary/model"
+parts=(-F "model=@$temporary/model;filename=model;type=application/octet-stream")
+if [[ $request ]]; then
+    ln -s -- "$(realpath -- "$request")" "$temporary/request"
+    parts+=(-F "request=@$temporary/request;filename=request.json;type=application/json")
+fi
+
+for (( attempt = 1; ; attempt++ )); do
+    ask "$temporary/job" "${parts[@]}" "$url/v1/jobs"
+    [[ $status == 503 && $attempt -lt 5 ]] || break  # the queue is full: come back when told
+    sleep "$(retry_after)"
+done
+[[ $status == 202 ]] || fail "$status" "$temporary/job"
+job=$url$(jq -r .links.self "$temporary/job")
+
+# Most jobs end within the second: quick looks first, then as Retry-After says.
+for (( look = 1; ; look++ )); do
+    case $(jq -r .state "$temporary/job") in
+        succeeded) break ;;
+        failed) jq .error "$temporary/job" > "$temporary/problem"; fail 422 "$temporary/problem" ;;
+        canceled) echo "flatten.sh: the job was canceled" >&2; exit 1 ;;
+    esac
+    pause=$(retry_after)
+    (( look > 10 )) || pause=0.1
+    sleep "${pause:-1}"
+    ask "$temporary/job" "$job"
+    [[ $status == 200 ]] || fail "$status" "$temporary/job"
+done
+
+mkdir -p -- "$out"
+for format in json:result.json svg:pattern.svg glb:flat.glb; do
+    ask "$temporary/result" "$job/result?format=${format%%:*}"
+    [[ $status == 200 ]] || fail "$status" "$temporary/result"
+    mv -- "$temporary/result" "$out/${format#*:}"
+done
+
+row='%-16s %-16s %10s %10s %10s  %-6s  %s\n'
+# shellcheck disable=SC2059
+printf "$row" region curve "last mm" "flat mm" "error mm" locked verdict
+jq -r '.regions[] | .name as $region | .curves[] | [$region, .name, .length_3d_mm, .length_2d_mm, .error_mm,
+       (if .locked then "yes" else "no" end), .verdict] | @tsv' "$out/result.json" |
+    while IFS=$'\t' read -r region curve length_3d length_2d error locked verdict; do
+        # shellcheck disable=SC2059
+        LC_ALL=C printf "$row" "$region" "$curve" "$(LC_ALL=C printf %.3f "$length_3d")" \
+            "$(LC_ALL=C printf %.3f "$length_2d")" "$(LC_ALL=C printf %.6f "$error")" "$locked" "$verdict"
+    done
+jq -r '.pairs[] | [.a, .b, .curve, .difference_mm, .verdict] | @tsv' "$out/result.json" |
+    while IFS=$'\t' read -r a b curve difference verdict; do
+        LC_ALL=C printf 'pair %s: %s and %s differ by %.6f mm  %s\n' "$curve" "$a" "$b" "$difference" "$verdict"
+    done
+jq -r '.warnings[] | "warning: \(.detail)"' "$out/result.json"
+echo "written to $out: result.json pattern.svg flat.glb"

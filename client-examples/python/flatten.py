@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Flattens a last: sends it, waits, saves the pattern and prints what became of every curve.
+
+    flatten.py LAST [REQUEST]      LAST: OBJ, glTF or GLB; REQUEST: the constraint JSON
+
+LASTFLAT_URL  the server; default http://127.0.0.1:8080
+OUT           the folder for result.json, pattern.svg and flat.glb; default: a folder with the last's name, here
+
+Ends with 0; with 2 if the last or the request is at fault; with 1 if anything else is. Only the standard library.
+"""
+
+import json
+import os
+import pathlib
+import sys
+import time
+import urllib.error
+import urllib.request
+import uuid
+
+SERVER = os.environ.get("LASTFLAT_URL", "http://127.0.0.1:8080").rstrip("/")
+
+
+class Problem(Exception):
+    """What the server says is wrong (RFC 9457)."""
+
+    def __init__(self, status, document):
+        pointer = f"\n  at: {document['pointer']}" if "pointer" in document else ""
+        super().__init__(f"{document.get('detail', f'status {status}')}{pointer}\n  code: {document.get('code')}")
+        self.exit_code = 2 if 400 <= status < 500 else 1
+
+
+def ask(path, body=None, headers=None):
+    """The answer's headers and bytes; a full queue is waited for."""
+    for attempt in range(5):
+        try:
+            request = urllib.request.Request(SERVER + path, data=body, headers=headers or {})
+            with urllib.request.urlopen(request, timeout=120) as answer:
+                return answer.headers, answer.read()
+        except urllib.error.HTTPError as error:
+            text = error.read()
+            if error.code == 503 and attempt < 4:
+                time.sleep(int(error.headers.get("Retry-After", 5)))
+                continue
+            is_problem = error.headers.get_content_type() == "application/problem+json"
+            raise Problem(error.code, json.loads(text) if is_problem else {}) from None
+
+
+def form(parts):
+    """The parts as multipart/form-data: its content type and bytes."""
+    boundary = uuid.uuid4().hex
+    lines = []
+    for name, content_type, content in parts:
+        head = f'--{boundary}\r\nContent-Disposition: form-data; name="{name}"; filename="{name}"\r\n'
+        lines += [head.encode(), f"Content-Type: {content_type}\r\n\r\n".encode(), content, b"\r\n"]
+    return f"multipart/form-data; boundary={boundary}", b"".join(lines) + f"--{boundary}--\r\n".encode()
+
+
+def finished(headers, job):
+    """Waits for the job's end: quick looks first (most take less than a second), then as Retry-After says."""
+    look = 0
+    while job["state"] not in ("succeeded", "failed", "canceled"):
+        time.sleep(0.1 if look < 10 else int(headers.get("Retry-After", 1)))
+        look += 1
+        headers, text = ask(job["links"]["self"])
+        job = json.loads(text)
+    return job
+
+
+def main(last, request=None):
+    parts = [("model", "application/octet-stream", pathlib.Path(last).read_bytes())]
+    if request:
+        parts.append(("request", "application/json", pathlib.Path(request).read_bytes()))
+    content_type, body = form(parts)
+    headers, text = ask("/v1/jobs", body, {"Content-Type": content_type})
+    job = finished(headers, json.loads(text))
+    if job["state"] == "failed":
+        raise Problem(422, job["error"])
+    if job["state"] == "canceled":
+        sys.exit("flatten.py: the job was canceled")
+
+    folder = pathlib.Path(os.environ.get("OUT") or pathlib.Path(last).stem)
+    files = {name: ask(f"{job['links']['result']}?format={kind}")[1]
+             for name, kind in (("result.json", "json"), ("pattern.svg", "svg"), ("flat.glb", "glb"))}
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, content in files.items():
+        (folder / name).write_bytes(content)
+
+    result = json.loads(files["result.json"])
+    row = "{:16} {:16} {:>10} {:>10} {:>10}  {:6}  {}"
+    print(row.format("region", "curve", "last mm", "flat mm", "error mm", "locked", "verdict"))
+    for region in result["regions"]:
+        for c in region["curves"]:
+            print(row.format(region["name"], c["name"], f"{c['length_3d_mm']:.3f}", f"{c['length_2d_mm']:.3f}",
+                             f"{c['error_mm']:.6f}", "yes" if c["locked"] else "no", c["verdict"]))
+    for p in result["pairs"]:
+        print(f"pair {p['curve']}: {p['a']} and {p['b']} differ by {p['difference_mm']:.6f} mm  {p['verdict']}")
+    for warning in result["warnings"]:
+        print("warning:", warning["detail"])
+    print(f"written to {folder}:", *files)
+
+
+if __name__ == "__main__":
+    if not 2 <= len(sys.argv) <= 3:
+        print(__doc__, file=sys.stderr)
+        sys.exit(2)
+    try:
+        main(*sys.argv[1:])
+    except Problem as problem:
+        print(f"flatten.py: {problem}", file=sys.stderr)
+        sys.exit(problem.exit_code)
+    except OSError as error:
+        is_input = getattr(error, "filename", None) in sys.argv[1:]
+        print(f"flatten.py: {error}", file=sys.stderr)
+        sys.exit(2 if is_input else 1)

@@ -1,0 +1,160 @@
+#include "api/flatten_request.h"
+
+#include <doctest/doctest.h>
+
+#include "api/job.h"
+#include "api/object_reader.h"
+
+namespace lastflat::api {
+namespace {
+
+std::string pointer_of(const std::string& text) {
+    try {
+        (void)flatten_request_from_json(text);
+    } catch (const InvalidRequest& error) {
+        return error.pointer();
+    }
+    return "accepted";
+}
+
+std::string detail_of(const std::string& text) {
+    try {
+        (void)flatten_request_from_json(text);
+    } catch (const InvalidRequest& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+}  // namespace
+
+TEST_SUITE("api/flatten_request") {
+    TEST_CASE("nothing at all is every default") {
+        for (const char* text : {"", " \n", "{}"}) {
+            const FlattenRequest request = flatten_request_from_json(text);
+            CHECK(request.curves.empty());
+            CHECK_FALSE(request.units.has_value());
+            CHECK(request.method.name == Method::isometric);
+        }
+    }
+
+    TEST_CASE("every part of the contract is read") {
+        const FlattenRequest request = flatten_request_from_json(R"({
+            "units": "in", "surface": {"groups": ["upper"]}, "weld": {"tolerance_mm": 0.01},
+            "points": {"toe_point": {"vertex": 80}, "vamp_point": {"position": [180, 3, 60]}},
+            "curves": {"centre_front": {"vertices": [80, 240]}, "heel": {"polyline": [[0,0,0],[1,0,9]]},
+                       "topline": {"from": "a", "to": "b", "via": ["c"]},
+                       "featherline": {"border_of": {"groups": ["upper", "sole"]}}},
+            "cuts": ["centre_front", "heel"],
+            "regions": {"exterior": {"contains": {"vertex": 5200}}, "interior": {}},
+            "locks": [{"curve": "centre_front"}, {"curve": "topline", "keep": "total"}],
+            "method": {"name": "geodesic_fan", "angles": "averaged_conformal"},
+            "layout": {"arrangement": "pair"}, "tag": "order-4711"})");
+        CHECK(request.units == Unit::in);
+        CHECK(request.surface_groups == std::vector<std::string>{"upper"});
+        CHECK(request.weld_tolerance_mm == 0.01);
+        CHECK(request.points.size() == 2);
+        REQUIRE(request.curves.size() == 4);  // in alphabetical order
+        CHECK(request.curves[0].vertices == std::vector<std::int32_t>{80, 240});
+        CHECK(request.curves[1].form == CurveForm::border_of);
+        CHECK(request.curves[2].form == CurveForm::polyline);
+        CHECK(request.curves[3].via == std::vector<std::string>{"c"});
+        REQUIRE(request.regions.size() == 2);
+        CHECK(request.regions[0].name == "lateral");
+        CHECK(request.regions[0].contains->vertex == 5200);
+        CHECK(request.regions[1].name == "medial");
+        CHECK(request.locks[0].keep == KeepLength::edges);
+        CHECK(request.locks[1].keep == KeepLength::total);
+        CHECK(request.method.angles == Angles::averaged_conformal);
+        CHECK(request.tag == "order-4711");
+    }
+
+    TEST_CASE("a broken field is named by its JSON pointer") {
+        const std::pair<const char*, const char*> table[] = {
+            {R"({"unit": "mm"})", "/unit"},
+            {R"({"units": "feet"})", "/units"},
+            {R"({"units": 5})", "/units"},
+            {R"({"surface": {"groups": ["a", ""]}})", "/surface/groups/1"},
+            {R"({"surface": []})", "/surface"},
+            {R"({"weld": {}})", "/weld"},
+            {R"({"weld": {"tolerance_mm": 2}})", "/weld/tolerance_mm"},
+            {R"({"points": {"p": {"vertex": 1, "position": [1,2,3]}}})", "/points/p"},
+            {R"({"points": {"p": {"position": [1,2]}}})", "/points/p/position"},
+            {R"({"curves": {"heel": {"vertices": [1, -2]}}})", "/curves/heel/vertices/1"},
+            {R"({"curves": {"heel": {"vertices": [1, 2.5]}}})", "/curves/heel/vertices/1"},
+            {R"({"curves": {"heel": {"vertices": [1, 4294967296]}}})", "/curves/heel/vertices/1"},
+            {R"({"curves": {"heel": {"vertices": [1, 18446744073709551615]}}})", "/curves/heel/vertices/1"},
+            {R"({"curves": {"heel": {"vertices": [1]}}})", "/curves/heel/vertices"},
+            {R"({"curves": {"heel": {}}})", "/curves/heel"},
+            {R"({"curves": {"heel": {"vertices": [1,2], "polyline": [[0,0,0],[1,1,1]]}}})", "/curves/heel"},
+            {R"({"curves": {"heel": {"from": "a"}}})", "/curves/heel"},
+            {R"({"curves": {"a/b~c": {"vertices": "x"}}})", "/curves/a~1b~0c/vertices"},
+            {R"({"curves": {"": {"vertices": [1,2]}}})", "/curves/"},
+            {R"({"cuts": "heel"})", "/cuts"},
+            {R"({"regions": {"a": {"contain": {}}}})", "/regions/a/contain"},
+            {R"({"regions": {"lateral": {}, "exterior": {}}})", "/regions/lateral"},
+            {R"({"locks": [{"keep": "edges"}]})", "/locks/0"},
+            {R"({"locks": [{"curve": "a", "keep": "all"}]})", "/locks/0/keep"},
+            {R"({"locks": [{"curve": "a"}, {"curve": "a"}]})", "/locks/1"},
+            {R"({"method": {"name": "magic"}})", "/method/name"},
+            {R"({"method": {"name": "isometric", "border": "circle"}})", "/method/border"},
+            {R"({"method": {"name": "mean_value", "angles": "curvature"}})", "/method/angles"},
+            {R"({"layout": {"arrangement": "heap"}})", "/layout/arrangement"},
+            {R"({"tag": "a\u0000b"})", "/tag"},
+            {R"([])", ""},
+        };
+        for (const auto& [text, pointer] : table) {
+            CAPTURE(text);
+            CHECK(pointer_of(text) == pointer);
+        }
+    }
+
+    TEST_CASE("an error lists what there is instead") {
+        CHECK(detail_of(R"({"seem": 1})").find("known here: curves, cuts, layout") != std::string::npos);
+        CHECK(detail_of(R"({"units": "feet"})") == "must be one of: mm, cm, m, in");
+    }
+
+    TEST_CASE("documents that cannot be read are refused, not guessed") {
+        for (const char* text : {"{", "{\"a\": nul}", "{\"tag\": \"\xFF\"}", "{} {}", "{\"tag\": 1e999}", "\xEF\xBB"}) {
+            CAPTURE(text);
+            CHECK(detail_of(text).find("cannot be read") != std::string::npos);
+        }
+        CHECK(detail_of(R"({"tag": "a", "tag": "b"})").find("'tag' stands twice") != std::string::npos);
+        CHECK(detail_of("{\"tag\":" + std::string(100, '[') + std::string(100, ']') + "}").find("deeper") != std::string::npos);
+    }
+
+    TEST_CASE("limits hold") {
+        RequestLimits limits;
+        limits.curve_vertices = 3;
+        CHECK_THROWS_AS((void)flatten_request_from_json(R"({"curves": {"a": {"vertices": [1,2,3,4]}}})", limits), InvalidRequest);
+        limits = {};
+        limits.bytes = 10;
+        CHECK_THROWS_AS((void)flatten_request_from_json(R"({"tag": "abcdef"})", limits), InvalidRequest);
+    }
+}
+
+TEST_SUITE("api/json_submission") {
+    TEST_CASE("the model is decoded and pointers begin at the document") {
+        const auto submission = json_submission_from_json(R"({"model": {"data": "diAwIDAgMA=="}, "request": {"tag": "t"}})");
+        CHECK(submission.model == "v 0 0 0");
+        CHECK(submission.request.tag == "t");
+        try {
+            (void)json_submission_from_json(R"({"model": {"data": ""}, "request": {"units": "x"}})");
+            FAIL("no error");
+        } catch (const InvalidRequest& error) {
+            CHECK(error.pointer() == "/request/units");
+        }
+        for (const char* text : {R"({})", R"({"model": {}})", R"({"model": {"data": "@"}})", R"({"model": {"data": ""}, "x": 1})"}) {
+            CHECK_THROWS_AS((void)json_submission_from_json(text), InvalidRequest);
+        }
+    }
+}
+
+TEST_SUITE("api/job") {
+    TEST_CASE("times are RFC 3339 in UTC, also on leap days") {
+        CHECK(rfc3339(0) == "1970-01-01T00:00:00.000Z");
+        CHECK(rfc3339(1709251199123) == "2024-02-29T23:59:59.123Z");
+    }
+}
+
+}  // namespace lastflat::api

@@ -1,0 +1,17 @@
+# Fails when a source file outgrows the bound at which it is no longer read in one go.
+file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/core/*.h ${ROOT}/core/*.cpp ${ROOT}/api/*.h
+     ${ROOT}/api/*.cpp ${ROOT}/server/*.h ${ROOT}/server/*.cpp)
+set(bound 400)
+set(large "")
+foreach(source IN LISTS sources)
+    file(READ ${ROOT}/${source} text)
+    string(REGEX MATCHALL "\n" lines "${text}")
+    list(LENGTH lines count)
+    if(count GREATER bound)
+        list(APPEND large "${source}: ${count}")
+    endif()
+endforeach()
+if(large)
+    list(JOIN large "\n  " text)
+    message(FATAL_ERROR "Files over ${bound} lines:\n  ${text}")
+endif()

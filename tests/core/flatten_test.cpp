@@ -1,0 +1,138 @@
+#include "core/flatten.h"
+
+#include <doctest/doctest.h>
+
+#include "core/border/convex_border.h"
+#include "core/constrain/constrained_newton.h"
+#include "core/parameterize/start.h"
+#include "tests/helpers/sample.h"
+#include "tests/helpers/shapes.h"
+
+namespace lastflat {
+namespace {
+
+void check_certificate(const FlattenResult& result) {
+    for (const FlatRegion& flat : result.regions) {
+        CAPTURE(flat.region.name);
+        CHECK(flat.metrics.flipped_triangles == 0);
+        CHECK(flat.metrics.border_crossings == 0);
+        CHECK(flat.metrics.symmetric_dirichlet < 1.002);
+        CHECK(flat.metrics.area_verdict == Verdict::pass);
+        for (const CurveReport& curve : flat.curves) {
+            if (curve.locked) CHECK(curve.worst_edge_error_mm < 1e-9);
+        }
+    }
+    for (const PairReport& pair : result.pairs) CHECK(std::abs(pair.difference_mm) < 1e-9);
+}
+
+}  // namespace
+
+TEST_SUITE("core/flatten") {
+    TEST_CASE("the sample last comes out whole, in every size and shape") {
+        for (const SampleLastOptions& options : {SampleLastOptions{}, SampleLastOptions{36, 60, 4, -5, ToeShape::pointed},
+                                                 SampleLastOptions{46, 0, 12, 8, ToeShape::square}}) {
+            const SampleLast last = make_sample_last(options);
+            const FlattenResult result = test::flatten_sample(last, test::sample_options(last));
+            REQUIRE(result.regions.size() == 2);
+            CHECK(result.warnings.empty());
+            CHECK(result.pairs.size() == 2);
+            CHECK(result.sheet.placements[0].mirrored == false);
+            CHECK(result.sheet.placements[1].mirrored == true);
+            check_certificate(result);
+        }
+    }
+
+    TEST_CASE("one and two threads give the same bits") {
+        const SampleLast last = make_sample_last();
+        FlattenOptions options = test::sample_options(last);
+        const FlattenResult one = test::flatten_sample(last, options);
+        options.threads = 2;
+        const FlattenResult two = test::flatten_sample(last, options);
+        for (std::size_t r = 0; r < 2; ++r) CHECK(one.regions[r].chart.uv == two.regions[r].chart.uv);
+    }
+
+    TEST_CASE("a last in another place and unit gives the same pattern") {
+        const SampleLast last = make_sample_last();
+        const FlattenResult expected = test::flatten_sample(last, test::sample_options(last));
+        SampleLast moved = last;
+        for (Vec3& p : moved.mesh.positions) p = Vec3(-p.y(), p.x(), p.z()) + Vec3(500, 0, 20);
+        FlattenOptions options = test::sample_options(last);
+        const FlattenResult found = test::flatten_sample(moved, options);
+        for (std::size_t r = 0; r < 2; ++r) {
+            double largest = 0;
+            for (std::size_t v = 0; v < expected.regions[r].chart.uv.size(); ++v) {
+                largest = std::max(largest, (expected.regions[r].chart.uv[v] - found.regions[r].chart.uv[v]).norm());
+            }
+            CHECK(largest < 1e-6);
+        }
+    }
+
+    TEST_CASE("methods without locks report what they leave, after one uniform scale") {
+        const SampleLast last = make_sample_last();
+        FlattenOptions options = test::sample_options(last);
+        for (const MethodName method : {MethodName::geodesic_fan, MethodName::mean_value}) {
+            options.method.name = method;
+            const FlattenResult result = test::flatten_sample(last, options);
+            for (const FlatRegion& flat : result.regions) {
+                double in_space = 0, flat_sum = 0;
+                for (const CurveReport& curve : flat.curves) {
+                    if (!curve.locked) continue;
+                    in_space += curve.length_3d_mm;
+                    flat_sum += curve.length_2d_mm;
+                    CHECK(curve.verdict == Verdict::fail);
+                }
+                CHECK(flat_sum == doctest::Approx(in_space).epsilon(1e-12));
+                CHECK(flat.metrics.flipped_triangles == 0);
+            }
+        }
+    }
+
+    TEST_CASE("a start that fails is replaced, and a warning says so") {
+        // Every border edge locked: the fan's polygon cannot close. On a developable patch the locks
+        // can hold all the same, so the circle must lead there.
+        const Region region = test::cylinder(8);
+        const std::vector<bool> all(region.border.size(), true);
+        const Start start = start_chart(region, all, {});
+        REQUIRE(start.warnings.size() == 1);
+        CHECK(start.warnings[0].code == "start_replaced");
+        CHECK(flipped_triangles(region, start.chart.uv).empty());
+        const std::vector<Lock> locks{{"bottom"}, {"right"}, {"top"}, {"left"}};
+        Progress progress;
+        const Minimum minimum = minimise_distortion(region, start.chart, length_constraints(region, locks), SymmetricDirichlet(), progress);
+        CHECK(minimum.energy == doctest::Approx(1.0).epsilon(1e-10));
+    }
+
+    TEST_CASE("a lock on a curve that is not there is an error at its field") {
+        const SampleLast last = make_sample_last();
+        FlattenOptions options = test::sample_options(last);
+        options.locks.push_back({"collar"});
+        try {
+            (void)test::flatten_sample(last, options);
+            FAIL("no error");
+        } catch (const Error& error) {
+            CHECK(error.option() == "/locks/2/curve");
+        }
+    }
+
+    TEST_CASE("a cancelled job ends with that error") {
+        const SampleLast last = make_sample_last();
+        Progress progress;
+        progress.cancel();
+        try {
+            (void)flatten(write_model_obj(last.mesh), test::sample_options(last), progress);
+            FAIL("no error");
+        } catch (const Error& error) {
+            CHECK(error.code() == ErrorCode::cancelled);
+        }
+    }
+
+    TEST_CASE("progress goes forward and ends at one") {
+        const SampleLast last = make_sample_last();
+        Progress progress;
+        (void)flatten(write_model_obj(last.mesh), test::sample_options(last), progress);
+        CHECK(progress.stage() == Stage::done);
+        CHECK(progress.fraction() == 1.0);
+    }
+}
+
+}  // namespace lastflat

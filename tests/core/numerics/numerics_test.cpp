@@ -1,0 +1,114 @@
+#include <doctest/doctest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/numerics/dominant_lu.h"
+#include "core/numerics/polygon.h"
+#include "core/numerics/singular_values.h"
+#include "core/numerics/sparse_solvers.h"
+
+namespace lastflat {
+
+TEST_SUITE("core/numerics/singular_values") {
+    TEST_CASE("the factors are rotations and multiply to the matrix") {
+        for (int k = 0; k < 60; ++k) {
+            Eigen::Matrix2d F;
+            F << std::sin(1.0 * k), std::cos(2.3 * k), std::sin(3.1 * k + 1), std::cos(0.7 * k);
+            const Svd2 svd = svd2(F);
+            CHECK((svd.u * svd.sigma.asDiagonal() * svd.v.transpose() - F).norm() < 1e-14);
+            CHECK(svd.u.determinant() == doctest::Approx(1.0));
+            CHECK(svd.v.determinant() == doctest::Approx(1.0));
+            CHECK(svd.sigma[0] >= std::abs(svd.sigma[1]));
+            CHECK(svd.sigma.prod() == doctest::Approx(F.determinant()));
+        }
+    }
+}
+
+TEST_SUITE("core/numerics/dominant_lu") {
+    TEST_CASE("solves an unsymmetric M-matrix on a grid to round-off") {
+        const int n = 15;
+        std::vector<Eigen::Triplet<double>> entries;
+        const auto id = [n](int i, int j) { return i * n + j; };
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; j < n; ++j) {
+                double sum = i == 0 ? 0.5 : 0.0;  // held along one side only
+                for (const auto& [a, b] : {std::pair(i - 1, j), std::pair(i + 1, j), std::pair(i, j - 1), std::pair(i, j + 1)}) {
+                    if (a < 0 || b < 0 || a >= n || b >= n) continue;
+                    const double w = 1.0 + 0.9 * std::sin(3.0 * id(i, j) + 5.0 * id(a, b));
+                    entries.emplace_back(id(i, j), id(a, b), -w);
+                    sum += w;
+                }
+                entries.emplace_back(id(i, j), id(i, j), sum);
+            }
+        }
+        SparseMatrix A(n * n, n * n);
+        A.setFromTriplets(entries.begin(), entries.end());
+        const Eigen::MatrixXd x = Eigen::MatrixXd::NullaryExpr(n * n, 2, [](Eigen::Index i, Eigen::Index j) {
+            return std::cos(static_cast<double>(i + 7 * j));
+        });
+        CHECK((DominantLu(A).solve(A * x) - x).norm() < 1e-10);
+        CHECK((A - SparseMatrix(A.transpose())).norm() > 1.0);
+    }
+
+    TEST_CASE("a singular matrix is an error") {
+        SparseMatrix A(2, 2);
+        A.insert(0, 0) = 1;
+        A.insert(0, 1) = -1;
+        A.insert(1, 0) = -1;
+        A.insert(1, 1) = 1;
+        CHECK_THROWS_AS(DominantLu{A}, Error);
+    }
+}
+
+TEST_SUITE("core/numerics/sparse_solvers") {
+    TEST_CASE("a matrix that is not positive definite is an error") {
+        SparseMatrix A(2, 2);
+        A.insert(0, 0) = 1;
+        A.insert(1, 0) = 2;
+        A.insert(1, 1) = 1;
+        CHECK_THROWS_AS((void)solve_spd(A, Eigen::VectorXd::Ones(2)), Error);
+    }
+
+    TEST_CASE("the inertia of a quasi-definite system is counted") {
+        SparseMatrix A(3, 3);  // [2 0 1; 0 3 1; 1 1 -1]
+        A.insert(0, 0) = 2;
+        A.insert(1, 1) = 3;
+        A.insert(2, 0) = 1;
+        A.insert(2, 1) = 1;
+        A.insert(2, 2) = -1;
+        QuasiDefiniteSolver solver;
+        solver.analyse(A);
+        REQUIRE(solver.factor(A));
+        CHECK(solver.negative_pivots() == 1);
+        const Eigen::VectorXd x = solver.solve(Eigen::Vector3d(3, 4, 1));
+        CHECK((x - Eigen::Vector3d(1, 1, 1)).norm() < 1e-12);
+    }
+}
+
+TEST_SUITE("core/numerics/polygon") {
+    TEST_CASE("the hull of points with collinear ones keeps strict corners only") {
+        const Points2 points{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {1, 1}, {0, 2}, {0, 1}};
+        CHECK(convex_hull(points) == std::vector<Index>{0, 2, 3, 5});
+    }
+
+    TEST_CASE("crossings are found, neighbours are none") {
+        CHECK(self_crossings({{0, 0}, {4, 0}, {4, 4}, {0, 4}}).empty());
+        const auto bow = self_crossings({{0, 0}, {4, 4}, {4, 0}, {0, 4}});
+        REQUIRE(bow.size() == 1);
+        CHECK(bow[0].a == 0);
+        CHECK(bow[0].b == 2);
+    }
+
+    TEST_CASE("a border that touches itself along a line counts as crossing") {
+        CHECK_FALSE(self_crossings({{0, 0}, {6, 0}, {6, 3}, {4, 3}, {4, 0}, {2, 0}, {2, 3}, {0, 3}}).empty());
+    }
+
+    TEST_CASE("the angle of a needle keeps its digits") {
+        const double tiny = 1e-9;
+        CHECK(angle_at(Vec2(0, 0), Vec2(1, 0), Vec2(1, tiny)) == doctest::Approx(tiny).epsilon(1e-6));
+    }
+}
+
+}  // namespace lastflat

@@ -1,0 +1,102 @@
+// Real lasts against the best known optimum. Their files are not part of the project: the folder is
+// named by LASTFLAT_LASTS (default: shared/lasts beside the source), and without it the test says
+// that it was skipped.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "api/flatten_request.h"
+#include "core/flatten.h"
+#include "server/translate.h"
+
+namespace lastflat {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path folder() {
+    if (const char* given = std::getenv("LASTFLAT_LASTS")) return given;
+    const char* source = std::getenv("LASTFLAT_SOURCE");
+    return fs::path(source != nullptr ? source : ".") / ".." / "shared" / "lasts";
+}
+
+bool skipped() {
+    if (fs::is_directory(folder())) return false;
+    std::cout << "skipped: no folder of real lasts (LASTFLAT_LASTS)" << std::endl;
+    return true;
+}
+
+std::string bytes_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    REQUIRE(file.good());
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+FlattenResult flatten_last(const std::string& name, std::size_t threads = 2) {
+    auto options = server::to_options(api::flatten_request_from_json(bytes_of(folder() / (name + ".request.json"))));
+    options.threads = threads;
+    Progress progress;
+    return flatten(bytes_of(folder() / (name + ".obj")), options, progress);
+}
+
+/// Best known symmetric Dirichlet energy, normalised L2 stretch and largest stretch, every edge of
+/// centre front and heel locked.
+struct Optimum {
+    const char* name;
+    double dirichlet, l2_normalised, linf;
+};
+constexpr Optimum lateral[] = {{"donna_t30_size38", 1.000575, 1.000424, 1.0764}, {"uomo_t10_size42", 1.000537, 1.000395, 1.0725}};
+constexpr Optimum medial[] = {{"donna_t30_size38", 1.000831, 1.000613, 1.0850}, {"uomo_t10_size42", 1.000552, 1.000408, 1.0699}};
+
+void check_optimum(const FlatRegion& flat, const Optimum& best) {
+    CAPTURE(best.name);
+    CAPTURE(flat.region.name);
+    CHECK(std::abs(flat.metrics.symmetric_dirichlet - best.dirichlet) < 0.0000015);  // its last digit
+    CHECK(std::abs(flat.metrics.stretch_l2_normalised - best.l2_normalised) < 0.0000015);
+    CHECK(std::abs(flat.metrics.stretch_linf - best.linf) < 0.0002);
+    CHECK(flat.metrics.flipped_triangles == 0);
+    CHECK(flat.metrics.border_crossings == 0);
+    for (const CurveReport& curve : flat.curves) {
+        if (curve.locked) CHECK(curve.worst_edge_error_mm < 1e-9);
+    }
+}
+
+}  // namespace
+
+TEST_SUITE("core/real_lasts") {
+    TEST_CASE("halves reach the best known optimum with every locked edge exact") {
+        if (skipped()) return;
+        for (std::size_t i = 0; i < 2; ++i) {
+            check_optimum(flatten_last(std::string(lateral[i].name) + "_upper_lateral_half").regions[0], lateral[i]);
+            check_optimum(flatten_last(std::string(medial[i].name) + "_upper_medial_half").regions[0], medial[i]);
+        }
+    }
+
+    TEST_CASE("closed lasts are cut into the same halves") {
+        if (skipped()) return;
+        for (std::size_t i = 0; i < 2; ++i) {
+            const FlattenResult result = flatten_last(std::string(lateral[i].name) + "_closed");
+            REQUIRE(result.regions.size() == 2);
+            check_optimum(result.regions[0], lateral[i]);
+            check_optimum(result.regions[1], medial[i]);
+            REQUIRE(result.pairs.size() == 2);
+            for (const PairReport& pair : result.pairs) CHECK(std::abs(pair.difference_mm) < 1e-3);
+        }
+    }
+
+    TEST_CASE("the slit of an upper stays a slit") {
+        if (skipped()) return;
+        Progress progress;
+        const FlattenResult result = flatten(bytes_of(folder() / "uomo_t10_size42_upper_disk_10k.obj"), {}, progress);
+        REQUIRE(result.regions.size() == 1);
+        CHECK(result.regions[0].metrics.flipped_triangles == 0);
+        FlattenOptions welded;
+        welded.weld.tolerance_mm = 0.0;
+        CHECK_THROWS_AS((void)flatten(bytes_of(folder() / "uomo_t10_size42_upper_disk_10k.obj"), welded, progress), Error);
+    }
+}
+
+}  // namespace lastflat

@@ -1,0 +1,100 @@
+#!/usr/bin/env bats
+# The program without its server.
+
+load helper
+
+setup_file() { require_program; make_sample; }
+setup() {
+    sample=$BATS_FILE_TMPDIR/sample
+    cd "$BATS_TEST_TMPDIR" || return 1
+}
+
+# refuses EXIT STATUS CODE ARGUMENTS...: with a problem document on standard error and nothing written.
+refuses() {
+    run --separate-stderr "$LASTFLAT" flatten "${@:4}" --out out
+    assert_equal "$status" "$1"
+    assert_equal "$output" ""
+    assert_equal "$(jq -c '[.status, .code]' <<< "$stderr")" "[$2,\"$3\"]"
+    [[ ! -d out ]] || assert_equal "$(ls -A out)" "nothing"
+}
+
+@test "--version and --help" {
+    run -0 "$LASTFLAT" --version
+    assert_equal "$output" "lastflat $(jq -r .info.version "$contract")"
+    run -0 "$LASTFLAT" --help
+    for command in serve flatten sample-last; do [[ $output == *"$command"* ]]; done
+}
+
+@test "flatten ends with 0 and writes the pattern" {
+    run -0 --separate-stderr "$LASTFLAT" flatten "$sample/last.obj" --request "$sample/last.request.json" --out new/out
+    assert_equal "$output$stderr" ""
+    assert_equal "$(ls -A new/out | xargs)" "flat.glb flat.obj pattern.svg result.json"
+    certify "$sample/last.obj" "$sample/last.request.json" new/out/result.json
+    check_drawing new/out/pattern.svg new/out/result.json
+    check_glb new/out/flat.glb new/out/result.json
+    assert_equal "$(grep -c '^g ' new/out/flat.obj)" 2
+    assert_equal "$(grep -c '^vt ' new/out/flat.obj)" "$(jq '[.regions[].uv_mm | length] | add' new/out/result.json)"
+}
+
+@test "flatten without a request takes every default" {
+    printf 'v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3 4\n' > square.obj
+    "$LASTFLAT" flatten square.obj --out out
+    jq -e '.regions | length == 1 and .[0].name == "region_1" and .[0].method == "isometric"
+           and (.[0].metrics.area_2d_mm2 - 81 | fabs < 1e-9)' out/result.json
+}
+
+@test "bad input ends with 2, a problem document and nothing written" {
+    echo '{"lock": []}' > unknown.json
+    refuses 2 422 invalid_request "$sample/last.obj" --request unknown.json
+    assert_equal "$(jq -r .pointer <<< "$stderr")" /lock
+    jq -c '.cuts = ["none"]' "$sample/last.request.json" > no_curve.json
+    refuses 2 422 curve_invalid "$sample/last.obj" --request no_curve.json
+    refuses 2 422 region_not_disk "$sample/last.obj"
+    echo 'v 1 2' > broken.obj
+    refuses 2 422 unreadable_model broken.obj
+    refuses 2 404 file_unreadable no_such.obj
+    refuses 2 404 file_unreadable "$sample/last.obj" --request no_such.json
+    mkdir out
+    echo mine > out/result.json
+    run "$LASTFLAT" flatten "$sample/last.obj" --request no_curve.json --out out
+    assert_equal "$status $(cat out/result.json)" "2 mine"
+}
+
+@test "arguments that are wrong end with 2" {
+    for arguments in "" "flatten" "flatten a.obj" "flaten" "serve --listen nowhere" "serve --workers many" "sample-last"; do
+        # shellcheck disable=SC2086
+        run --separate-stderr "$LASTFLAT" $arguments
+        assert_equal "$arguments: $status" "$arguments: 2"
+        [[ -n $stderr ]]
+    done
+}
+
+@test "output that cannot be written ends with 1 and a problem document" {
+    echo > file
+    run --separate-stderr "$LASTFLAT" flatten "$sample/last.obj" --request "$sample/last.request.json" --out file/out
+    assert_equal "$status" 1
+    assert_equal "$(jq -c '[.status, .code]' <<< "$stderr")" '[500,"file_unwritable"]'
+    mkdir -p out/flat.glb/taken
+    run --separate-stderr "$LASTFLAT" flatten "$sample/last.obj" --request "$sample/last.request.json" --out out
+    assert_equal "$status" 1
+    assert_equal "$(ls -A out | xargs)" flat.glb
+}
+
+@test "an address that is taken ends serve with 1" {
+    start_server
+    run --separate-stderr timeout 10 "$LASTFLAT" serve --listen "${url#http://}"
+    stop_servers
+    assert_equal "$status" 1
+    [[ $stderr == *"cannot listen"* ]]
+}
+
+@test "sample-last gives the same bytes each time, and the last of the client examples" {
+    "$LASTFLAT" sample-last --out again
+    for file in last.obj last.glb last.request.json; do cmp "$sample/$file" "again/$file"; done
+    "$LASTFLAT" sample-last --size 36 --toe pointed --out other
+    run ! cmp -s "$sample/last.obj" other/last.obj
+    shipped=()
+    for file in "$examples"/sample-last/last.*; do [[ -f $file ]] && shipped+=("$file"); done
+    (( ${#shipped[@]} )) || skip "client-examples/sample-last has no files"
+    for file in "${shipped[@]}"; do cmp "$file" "again/${file##*/}"; done
+}

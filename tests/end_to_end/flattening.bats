@@ -1,0 +1,143 @@
+#!/usr/bin/env bats
+# The sample last, from file to pattern, over HTTP and by the client examples.
+
+load helper
+
+setup_file() { require_program; make_sample; }
+setup() {
+    sample=$BATS_FILE_TMPDIR/sample
+    cd "$BATS_TEST_TMPDIR" || return 1
+}
+teardown() { stop_servers; }
+
+# Runs a client on a model and checks everything that it wrote.
+check_client() {  # client, model, request
+    start_server
+    OUT=out run --separate-stderr "$1" "$2" "$3"
+    assert_equal "$status" 0
+    certify "$2" "$3" out/result.json
+    check_drawing out/pattern.svg out/result.json
+    check_glb out/flat.glb out/result.json
+    [[ $output =~ lateral\ +heel\ +78\.710\ +78\.710\ +0\.000000\ +yes\ +pass ]] || assert_equal "$output" "a row for the heel"
+    [[ $output == *"pair heel: lateral and medial differ by 0.000000 mm  pass"* ]] || assert_equal "$output" "a pair"
+    "$LASTFLAT" flatten "$2" --request "$3" --out by_hand
+    assert_same_result out/result.json by_hand/result.json
+    cmp out/pattern.svg by_hand/pattern.svg
+    cmp out/flat.glb by_hand/flat.glb
+    OUT=again "$1" "$2" "$3"
+    assert_same_result out/result.json again/result.json
+    cmp out/pattern.svg again/pattern.svg
+    cmp out/flat.glb again/flat.glb
+}
+
+@test "flatten.sh: the sample last as OBJ keeps its locked curves, as the command line does" {
+    check_client "$examples/curl/flatten.sh" "$sample/last.obj" "$sample/last.request.json"
+}
+
+@test "flatten.sh: the sample last as GLB keeps its locked curves, as the command line does" {
+    check_client "$examples/curl/flatten.sh" "$sample/last.glb" "$sample/last.no_units.json"
+}
+
+@test "flatten.py: the sample last as OBJ keeps its locked curves, as the command line does" {
+    check_client "$examples/python/flatten.py" "$sample/last.obj" "$sample/last.request.json"
+}
+
+@test "flatten.py: the sample last as GLB keeps its locked curves, as the command line does" {
+    check_client "$examples/python/flatten.py" "$sample/last.glb" "$sample/last.no_units.json"
+}
+
+@test "the sample request fits the sample last in both of its formats" {
+    "$LASTFLAT" flatten "$sample/last.obj" --request "$sample/last.request.json" --out obj
+    "$LASTFLAT" flatten "$sample/last.glb" --request "$sample/last.request.json" --out glb
+    jq -se '.[0].regions[0].curves[0].length_3d_mm - .[1].regions[0].curves[0].length_3d_mm | fabs < 0.01' \
+        obj/result.json glb/result.json
+}
+
+@test "a glTF file with its buffer inside gives what the GLB gives" {
+    python3 - "$sample/last.glb" last.gltf <<'PYTHON'
+import base64, json, struct, sys
+data = open(sys.argv[1], "rb").read()
+size = struct.unpack("<I", data[12:16])[0]
+gltf = json.loads(data[20:20 + size])
+blob = data[28 + size:][:gltf["buffers"][0]["byteLength"]]
+gltf["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(blob).decode()
+json.dump(gltf, open(sys.argv[2], "w"))
+PYTHON
+    start_server
+    OUT=glb "$examples/curl/flatten.sh" "$sample/last.glb" "$sample/last.no_units.json"
+    OUT=gltf "$examples/curl/flatten.sh" last.gltf "$sample/last.no_units.json"
+    assert_same_result glb/result.json gltf/result.json
+}
+
+@test "the clients take files whose names have spaces, quotes, commas, semicolons and backslashes" {
+    start_server
+    odd="a last, size \"41\"; it's \\ odd =@<.obj"
+    cp "$sample/last.obj" "$odd"
+    cp "$sample/last.request.json" "a request; with, \"signs\".json"
+    for client in curl/flatten.sh python/flatten.py; do
+        "$examples/$client" "$odd" "a request; with, \"signs\".json"
+        certify "$odd" "$sample/last.request.json" "${odd%.*}/result.json"
+        rm -r -- "${odd%.*}"
+    done
+}
+
+@test "the clients say what is wrong and end with 2 if the input is at fault, 1 if not" {
+    start_server
+    jq -c '.locks[1].kep = "edges"' "$sample/last.request.json" > unknown.json
+    jq -c '.locks[1].curve = "hel"' "$sample/last.request.json" > no_curve.json
+    for client in curl/flatten.sh python/flatten.py; do
+        run --separate-stderr "$examples/$client" "$sample/last.obj" unknown.json
+        assert_equal "$status" 2
+        [[ $stderr == *"unknown field"*"at: /locks/1/kep"*"code: invalid_request"* ]] || assert_equal "$stderr" "the problem"
+        run --separate-stderr "$examples/$client" "$sample/last.obj" no_curve.json
+        assert_equal "$status" 2
+        [[ $stderr == *"'hel'"*"at: /locks/1/curve"*"code: curve_invalid"* ]] || assert_equal "$stderr" "the problem"
+        run --separate-stderr "$examples/$client" no_such_last.obj
+        assert_equal "$status" 2
+        LASTFLAT_URL=http://127.0.0.1:1 run --separate-stderr "$examples/$client" "$sample/last.obj"
+        assert_equal "$status" 1
+        [[ ! -e last ]]
+    done
+}
+
+@test "a form, JSON and the model alone carry the same job" {
+    start_server
+    flatten "$sample/last.obj" "$sample/last.request.json"
+    curl -sSf "$url$job/result" -o form.json
+
+    jq -nc --rawfile model <(base64 -w 0 "$sample/last.obj") --slurpfile request "$sample/last.request.json" \
+        '{model: {data: $model}, request: $request[0]}' > submission.json
+    ask -H 'Content-Type: application/json' --data-binary @submission.json "$url/v1/jobs"
+    assert_equal "$status" 202
+    job=$(jq -r .links.self "$body")
+    wait_until 60 has_ended_job "$job"
+    curl -sSf "$url$job/result" -o json.json
+    assert_same_result form.json json.json
+
+    constraints=$(base64 -w 0 "$sample/last.request.json" | tr '+/' '-_' | tr -d =)
+    for type in application/octet-stream model/obj application/x-www-form-urlencoded; do
+        ask -H "Content-Type: $type" -H "X-Flatten-Constraints: $constraints" --data-binary "@$sample/last.obj" "$url/v1/jobs"
+        assert_equal "$status" 202
+        job=$(jq -r .links.self "$body")
+        wait_until 60 has_ended_job "$job"
+        curl -sSf "$url$job/result" -o raw.json
+        assert_same_result form.json raw.json
+    done
+}
+
+@test "one worker or two, alone or crowded: the same bytes" {
+    "$LASTFLAT" flatten "$sample/last.obj" --request "$sample/last.request.json" --out by_hand
+    for workers in 1 2; do
+        start_server --workers "$workers"
+        jobs=()
+        for i in 1 2 3 4; do post "$sample/last.obj" "$sample/last.request.json"; jobs+=("$job"); done
+        for job in "${jobs[@]}"; do
+            wait_until 60 has_ended_job "$job"
+            for format in json svg glb obj; do curl -sSf "$url$job/result?format=$format" -o "result.$format"; done
+            assert_same_result result.json by_hand/result.json
+            cmp result.svg by_hand/pattern.svg
+            cmp result.glb by_hand/flat.glb
+            cmp result.obj by_hand/flat.obj
+        done
+    done
+}

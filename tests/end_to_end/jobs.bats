@@ -1,0 +1,199 @@
+#!/usr/bin/env bats
+# Jobs under load: waiting, canceling, deleting, ending.
+
+load helper
+
+setup_file() {
+    require_program
+    make_sample
+    make_bumpy 330 "$BATS_FILE_TMPDIR/slow.obj"    # 216 000 triangles: most of a minute
+    make_bumpy 120 "$BATS_FILE_TMPDIR/second.obj"  # 28 000 triangles: some seconds
+}
+setup() {
+    sample=$BATS_FILE_TMPDIR/sample
+    slow=$BATS_FILE_TMPDIR/slow.obj
+}
+teardown() { stop_servers; }
+
+@test "a job that has not ended has no result yet, and says when to ask again" {
+    start_server --workers 1
+    post "$slow"
+    assert_equal "$(header Location)" "$job"
+    assert_equal "$(header Retry-After)" 1
+    running=$job
+    wait_until 20 is_in_state "$running" running
+    ask "$url$running/result"
+    assert_problem 409 not_finished
+    assert_equal "$(header Retry-After)" 1
+    post "$sample/last.obj" "$sample/last.request.json"
+    assert_equal "$(jq -c '[.state, .queue.position]' "$body")" '["queued",1]'
+    ask "$url$job/result"
+    assert_problem 409 not_finished
+}
+
+@test "a waiting job is canceled at once and never runs" {
+    start_server --workers 1
+    post "$slow"
+    wait_until 20 is_in_state "$job" running
+    post "$sample/last.obj" "$sample/last.request.json"
+    ask -X POST "$url$job/cancel"
+    assert_equal "$status $(jq -r .state "$body")" "200 canceled"
+    jq -e 'has("started_at") | not' "$body"
+    ask "$url$job/result"
+    assert_problem 409 canceled
+    ask -X POST "$url$job/cancel"
+    assert_equal "$status $(jq -r .state "$body")" "200 canceled"
+    assert_equal "$(curl -sS "$url/healthz" | jq .jobs.queued)" 0
+}
+
+@test "a running job stops within a second of being canceled" {
+    start_server --workers 1
+    post "$BATS_FILE_TMPDIR/second.obj"
+    wait_until 20 is_in_state "$job" running
+    begun=$(milliseconds)
+    ask -X POST "$url$job/cancel"
+    assert_equal "$status $(jq -r .state "$body")" "202 canceling"
+    wait_until 20 is_in_state "$job" canceled
+    taken=$(( $(milliseconds) - begun ))
+    echo "# stopped after $taken ms (28 000 triangles)" >&3
+    (( taken <= 1000 ))
+    ask "$url$job/result"
+    assert_problem 409 canceled
+    # The worker is free again.
+    flatten "$sample/last.obj" "$sample/last.request.json"
+    ask -X POST "$url$job/cancel"
+    assert_problem 409 already_finished
+}
+
+@test "a large running job stops within a second of being canceled" {
+    start_server --workers 1
+    post "$slow"
+    wait_until 20 is_in_state "$job" running
+    wait_until 20 in_stage parameterize
+    begun=$(milliseconds)
+    ask -X POST "$url$job/cancel"
+    wait_until 30 is_in_state "$job" canceled
+    taken=$(( $(milliseconds) - begun ))
+    echo "# stopped after $taken ms (216 000 triangles)" >&3
+    (( taken <= 1000 ))
+}
+in_stage() { [[ $(curl -sS "$url$job" | jq -r .progress.stage) == "$1" ]]; }
+
+@test "a deleted job is gone, in whatever state it was" {
+    start_server --workers 1
+    flatten "$sample/last.obj" "$sample/last.request.json"
+    finished=$job
+    post "$slow"
+    running=$job
+    wait_until 20 is_in_state "$running" running
+    post "$sample/last.obj"
+    for path in "$finished" "$job" "$running"; do
+        ask -X DELETE "$url$path"
+        assert_equal "$status $(stat -c %s "$body" 2> "$BATS_TEST_TMPDIR/no_body" || echo 0)" "204 0"
+        rm -f "$body"
+        for gone in "$path" "$path/result"; do
+            ask "$url$gone"
+            assert_problem 404 job_not_found
+        done
+        ask -X DELETE "$url$path"
+        assert_problem 404 job_not_found
+        rm -f "$body"
+    done
+}
+
+@test "a full queue turns jobs away and says when to come back" {
+    start_server --workers 1 --queue 1
+    post "$slow"
+    running=$job
+    wait_until 20 is_in_state "$running" running
+    post "$sample/last.obj" "$sample/last.request.json"
+    waiting=$job
+    ask -F "model=@$sample/last.obj" "$url/v1/jobs"
+    assert_problem 503 queue_full
+    (( $(header Retry-After) > 0 ))
+    assert_equal "$(curl -sS "$url/healthz" | jq -c .jobs)" '{"queued":1,"running":1}'
+    ask -X DELETE "$url$running"
+    wait_until 60 has_ended_job "$waiting"
+    assert_equal "$(state "$waiting")" succeeded
+    flatten "$sample/last.obj" "$sample/last.request.json"
+}
+
+@test "50 jobs of 8 clients all succeed and none is lost" {
+    start_server
+    flatten "$sample/last.obj" "$sample/last.request.json"
+    curl -sSf "$url$job/result" -o "$BATS_TEST_TMPDIR/expected.json"
+    begun=$(milliseconds)
+    python3 - "$url" "$sample" "$BATS_TEST_TMPDIR/expected.json" <<'PYTHON'
+import base64, concurrent.futures, json, sys, time, urllib.request
+url, sample, expected = sys.argv[1], sys.argv[2], json.load(open(sys.argv[3]))
+model = base64.b64encode(open(sample + "/last.obj", "rb").read()).decode()
+request = json.load(open(sample + "/last.request.json"))
+
+def ask(path, body=None):
+    headers = {"Content-Type": "application/json"} if body else {}
+    with urllib.request.urlopen(urllib.request.Request(url + path, body, headers), timeout=60) as answer:
+        return json.load(answer)
+
+def one(number):
+    tag = f"order-{number}"
+    job = ask("/v1/jobs", json.dumps({"model": {"data": model}, "request": {**request, "tag": tag}}).encode())
+    end = time.monotonic() + 120
+    while job["state"] in ("queued", "running"):
+        assert time.monotonic() < end, f"{tag} is still {job['state']}"
+        time.sleep(0.05)
+        job = ask(job["links"]["self"])
+    assert (job["state"], job["tag"]) == ("succeeded", tag), job
+    result = ask(job["links"]["result"])
+    assert result["regions"] == expected["regions"], tag
+    return job["id"]
+
+with concurrent.futures.ThreadPoolExecutor(8) as clients:
+    ids = list(clients.map(one, range(50)))
+assert len(set(ids)) == 50
+assert ask("/healthz")["jobs"] == {"queued": 0, "running": 0}
+PYTHON
+    echo "# 50 jobs took $(( $(milliseconds) - begun )) ms" >&3
+}
+
+@test "health answers while the workers are busy and all connections are taken" {
+    start_server --workers 1 --connections 2
+    post "$slow"
+    wait_until 20 is_in_state "$job" running
+    # Two bodies that never come hold both connections.
+    for descriptor in 5 6; do
+        eval "exec $descriptor<> /dev/tcp/127.0.0.1/${url##*:}"
+        printf 'POST /v1/jobs HTTP/1.1\r\nHost: x\r\nContent-Length: 100\r\n\r\n' >&$descriptor
+    done
+    wait_until 3 is_taken
+    begun=$(milliseconds)
+    ask --max-time 1 "$url/healthz"
+    taken=$(( $(milliseconds) - begun ))
+    echo "# health answered after $taken ms" >&3
+    assert_equal "$status $(jq -c '[.status, .jobs.running]' "$body")" '200 ["ok",1]'
+    is_taken  # still: so it was no luck
+    exec 5>&- 6>&-
+}
+is_taken() { ! curl -s --max-time 0.3 "$url$job" -o "$BATS_TEST_TMPDIR/taken"; }
+
+@test "SIGTERM ends the service with 0 while a job runs" {
+    start_server --workers 1 --grace 0
+    post "$BATS_FILE_TMPDIR/second.obj"
+    wait_until 20 is_in_state "$job" running
+    begun=$(milliseconds)
+    kill -TERM "$server"
+    wait_until 20 has_ended "$server"
+    echo "# ended after $(( $(milliseconds) - begun )) ms" >&3
+    run -0 wait "$server"
+    run ! curl -sS "$url/healthz"
+}
+
+@test "SIGTERM gives a running job its grace" {
+    start_server --workers 1 --grace 60
+    post "$BATS_FILE_TMPDIR/second.obj"
+    wait_until 20 is_in_state "$job" running
+    begun=$(milliseconds)
+    kill -TERM "$server"
+    wait_until 60 has_ended "$server"
+    echo "# ended after $(( $(milliseconds) - begun )) ms" >&3
+    run -0 wait "$server"
+}

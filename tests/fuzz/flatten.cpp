@@ -1,0 +1,58 @@
+// A small OBJ through the whole method. The first byte chooses the method and the locks; the curve
+// is the path over the first vertices of the file. What is returned must be what was promised.
+#include "core/flatten.h"
+
+#include <cmath>
+
+#include "core/numerics/tolerances.h"
+#include "tests/fuzz/mesh_checks.h"
+
+namespace {
+
+using namespace lastflat;
+
+FlattenOptions options_of(std::uint8_t choice) {
+    FlattenOptions options;
+    options.limits = fuzz::small_limits();
+    options.limits.vertices = 400;
+    options.limits.triangles = 800;
+    const MethodName methods[] = {MethodName::isometric, MethodName::isometric,
+                                  MethodName::geodesic_fan, MethodName::mean_value};
+    options.method.name = methods[choice % 4];
+    options.method.angles = (choice & 4) != 0 ? AngleRule::averaged_conformal : AngleRule::curvature;
+    options.method.border = (choice & 4) != 0 ? BorderShape::square : BorderShape::circle;
+    const int path = choice >> 4;  // edges of the curve; it is cut and locked
+    if (path > 0) {
+        CurveSource curve{"heel", {}, {}};
+        for (Index v = 0; v <= path; ++v) curve.vertices.push_back(v);
+        options.curves.push_back(curve);
+        options.locks.push_back({"heel", (choice & 8) != 0 ? Keep::total : Keep::edges});
+        options.cut.cuts.push_back("heel");
+    }
+    return options;
+}
+
+void check(const FlattenResult& result) {
+    for (const FlatRegion& flat : result.regions) {
+        for (const Vec2& p : flat.chart.uv) fuzz::require(p.allFinite());
+        fuzz::require(flat.chart.uv.size() == flat.region.positions.size());
+        fuzz::require(flat.metrics.flipped_triangles == 0);
+        if (result.method != MethodName::isometric) continue;
+        fuzz::require(flat.metrics.border_crossings == 0);
+        for (const CurveReport& curve : flat.curves) {
+            fuzz::require(!curve.locked || curve.verdict == Verdict::pass);
+        }
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size == 0) return 0;
+    Progress progress;
+    try {
+        check(flatten(fuzz::text(data + 1, size - 1), options_of(data[0]), progress));
+    } catch (const Error&) {
+    }
+    return 0;
+}
