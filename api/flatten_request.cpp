@@ -12,7 +12,8 @@ constexpr double far_away = 1e6;  // mm: no last is a kilometre long
 
 std::vector<std::string> read_names(const Field& field, const RequestLimits& limits) {
     std::vector<std::string> names;
-    for (const Field& item : field.items(limits.list)) names.push_back(item.text(limits.name_bytes));
+    for (const Field& item : field.items(limits.list))
+        names.push_back(item.text(limits.name_bytes));
     return names;
 }
 
@@ -37,13 +38,15 @@ PlaceRequest read_place(const Field& field) {
 
 void read_vertices(const Field& field, const RequestLimits& limits, CurveRequest& curve) {
     curve.form = CurveForm::vertices;
-    for (const Field& item : field.items(limits.curve_vertices)) curve.vertices.push_back(item.index());
+    for (const Field& item : field.items(limits.curve_vertices))
+        curve.vertices.push_back(item.index());
     if (curve.vertices.size() < 2) field.fail("must have at least two vertices");
 }
 
 void read_polyline(const Field& field, const RequestLimits& limits, CurveRequest& curve) {
     curve.form = CurveForm::polyline;
-    for (const Field& item : field.items(limits.curve_vertices)) curve.polyline.push_back(read_position(item));
+    for (const Field& item : field.items(limits.curve_vertices))
+        curve.polyline.push_back(read_position(item));
     if (curve.polyline.size() < 2) field.fail("must have at least two points");
 }
 
@@ -79,7 +82,8 @@ CurveRequest read_curve(const std::string& name, const Field& field, const Reque
         ++forms;
     }
     reader.finish();
-    if (forms != 1) field.fail("must have exactly one of: vertices, polyline, from and to, border_of");
+    if (forms != 1)
+        field.fail("must have exactly one of: vertices, polyline, from and to, border_of");
     return curve;
 }
 
@@ -105,8 +109,12 @@ LockRequest read_lock(const Field& field, const RequestLimits& limits) {
 }
 
 /// Which options a method has.
-bool takes_border(Method method) { return method <= Method::mean_value; }
-bool takes_angles(Method method) { return method == Method::geodesic_fan; }
+bool takes_border(Method method) {
+    return method <= Method::mean_value;
+}
+bool takes_angles(Method method) {
+    return method == Method::geodesic_fan;
+}
 
 MethodRequest read_method(const Field& field) {
     ObjectReader reader(field);
@@ -115,7 +123,8 @@ MethodRequest read_method(const Field& field) {
         method.name = static_cast<Method>(name->choice(method_names()));
     }
     if (const auto border = reader.find("border")) {
-        method.border = static_cast<Border>(border->choice({"square", "circle", "hull", "floating"}));
+        method.border =
+            static_cast<Border>(border->choice({"square", "circle", "hull", "floating"}));
         if (!takes_border(method.name)) border->fail("this method has a border of its own");
     }
     if (const auto angles = reader.find("angles")) {
@@ -132,7 +141,8 @@ void read_surface(ObjectReader& reader, const RequestLimits& limits, FlattenRequ
     }
     if (const auto surface = reader.find("surface")) {
         ObjectReader inner(*surface);
-        if (const auto groups = inner.find("groups")) request.surface_groups = read_names(*groups, limits);
+        if (const auto groups = inner.find("groups"))
+            request.surface_groups = read_names(*groups, limits);
         inner.finish();
     }
     if (const auto weld = reader.find("weld")) {
@@ -203,14 +213,16 @@ const std::vector<std::string>& unit_names() {
 
 const std::vector<std::string>& method_names() {
     static const std::vector<std::string> names{
-        "tutte",          "chord_length", "shape_preserving", "harmonic",       "wachspress", "mean_value",
-        "virtual_border", "geodesic_fan", "mips",             "green_lagrange", "isometric"};
+        "tutte",      "chord_length",   "shape_preserving", "harmonic",
+        "wachspress", "mean_value",     "virtual_border",   "geodesic_fan",
+        "mips",       "green_lagrange", "isometric"};
     return names;
 }
 
 FlattenRequest flatten_request_from_json(std::string_view text, const RequestLimits& limits) {
     if (text.size() > limits.bytes) {
-        throw InvalidRequest("", "the request has more than " + std::to_string(limits.bytes) + " bytes");
+        throw InvalidRequest(
+            "", "the request has more than " + std::to_string(limits.bytes) + " bytes");
     }
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return {};
     const nlohmann::json document = parse_json(text, limits.depth);
@@ -230,7 +242,8 @@ JsonSubmission json_submission_from_json(std::string_view text, const RequestLim
     auto bytes = decode_base64(data->value.get_ref<const std::string&>());
     if (!bytes) data->fail("is not base64");
     submission.model = std::move(*bytes);
-    if (const auto request = reader.find("request")) submission.request = read_request(*request, limits);
+    if (const auto request = reader.find("request"))
+        submission.request = read_request(*request, limits);
     reader.finish();
     return submission;
 }

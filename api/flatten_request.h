@@ -15,8 +15,17 @@ enum class Unit { mm, cm, m, in };
 enum class CurveForm { vertices, polyline, geodesic, border_of };
 enum class KeepLength { edges, total };
 enum class Method {
-    tutte, chord_length, shape_preserving, harmonic, wachspress, mean_value,
-    virtual_border, geodesic_fan, mips, green_lagrange, isometric
+    tutte,
+    chord_length,
+    shape_preserving,
+    harmonic,
+    wachspress,
+    mean_value,
+    virtual_border,
+    geodesic_fan,
+    mips,
+    green_lagrange,
+    isometric
 };
 enum class Border { square, circle, hull, floating };
 enum class Angles { curvature, averaged_conformal };

@@ -57,12 +57,17 @@ std::string to_json(const FlattenResult& result) {
          warnings = Json::array();
     for (const auto& r : result.regions) regions.push_back(to_json(r));
     for (const auto& p : result.pairs) {
-        pairs.push_back({{"curve", p.curve}, {"a", p.a}, {"b", p.b},
-                         {"difference_mm", p.difference_mm}, {"verdict", p.verdict}});
+        pairs.push_back({{"curve", p.curve},
+                         {"a", p.a},
+                         {"b", p.b},
+                         {"difference_mm", p.difference_mm},
+                         {"verdict", p.verdict}});
     }
     for (const auto& p : result.placements) {
-        placements.push_back({{"region", p.region}, {"rotation_deg", p.rotation_deg},
-                              {"translation_mm", p.translation_mm}, {"mirrored", p.mirrored}});
+        placements.push_back({{"region", p.region},
+                              {"rotation_deg", p.rotation_deg},
+                              {"translation_mm", p.translation_mm},
+                              {"mirrored", p.mirrored}});
     }
     for (const auto& w : result.warnings) {
         warnings.push_back({{"code", w.code}, {"detail", w.detail}});
@@ -70,12 +75,17 @@ std::string to_json(const FlattenResult& result) {
     }
     const Json document{{"regions", std::move(regions)},
                         {"pairs", std::move(pairs)},
-                        {"layout", {{"width_mm", result.width_mm}, {"height_mm", result.height_mm},
-                                    {"placements", std::move(placements)}}},
+                        {"layout",
+                         {{"width_mm", result.width_mm},
+                          {"height_mm", result.height_mm},
+                          {"placements", std::move(placements)}}},
                         {"warnings", std::move(warnings)},
-                        {"timing_ms", {{"load", result.load_ms}, {"cut", result.cut_ms},
-                                       {"parameterize", result.parameterize_ms},
-                                       {"constrain", result.constrain_ms}, {"total", result.total_ms}}},
+                        {"timing_ms",
+                         {{"load", result.load_ms},
+                          {"cut", result.cut_ms},
+                          {"parameterize", result.parameterize_ms},
+                          {"constrain", result.constrain_ms},
+                          {"total", result.total_ms}}},
                         {"version", result.version}};
     return document.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

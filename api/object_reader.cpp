@@ -11,11 +11,13 @@ Json parse_json(std::string_view text, int depth) {
     std::vector<std::set<std::string>> names;  // of the objects that are open
     const auto watch = [&](int level, Json::parse_event_t event, Json& parsed) {
         if (level > depth) {
-            throw InvalidRequest("", "the JSON is nested deeper than " + std::to_string(depth) + " levels");
+            throw InvalidRequest(
+                "", "the JSON is nested deeper than " + std::to_string(depth) + " levels");
         }
         if (event == Json::parse_event_t::object_start) names.emplace_back();
         if (event == Json::parse_event_t::object_end) names.pop_back();
-        if (event == Json::parse_event_t::key && !names.back().insert(parsed.get<std::string>()).second) {
+        if (event == Json::parse_event_t::key &&
+            !names.back().insert(parsed.get<std::string>()).second) {
             throw InvalidRequest("", "the name '" + parsed.get<std::string>().substr(0, 80) +
                                          "' stands twice in one object");
         }
@@ -24,7 +26,8 @@ Json parse_json(std::string_view text, int depth) {
     try {
         return Json::parse(text.begin(), text.end(), watch);
     } catch (const Json::exception& error) {
-        std::string what = error.what();  // "[json.exception.parse_error.101] parse error at line ..."
+        std::string what =
+            error.what();  // "[json.exception.parse_error.101] parse error at line ..."
         if (const auto end = what.find("] "); end != std::string::npos) what.erase(0, end + 2);
         // The library quotes what it read last, which may be bytes that no JSON can carry back.
         what = what.substr(0, what.find("; last read"));
@@ -35,9 +38,12 @@ Json parse_json(std::string_view text, int depth) {
 std::string step(const std::string& pointer, const std::string& name) {
     std::string result = pointer + "/";
     for (const char c : name) {
-        if (c == '~') result += "~0";
-        else if (c == '/') result += "~1";
-        else result += c;
+        if (c == '~')
+            result += "~0";
+        else if (c == '/')
+            result += "~1";
+        else
+            result += c;
     }
     return result;
 }
@@ -49,7 +55,8 @@ std::string Field::text(std::size_t bytes) const {
         fail("must have 1 to " + std::to_string(bytes) + " bytes");
     }
     for (const char c : text) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) fail("must not have control characters");
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+            fail("must not have control characters");
     }
     return text;
 }

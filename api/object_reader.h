@@ -10,7 +10,8 @@
 
 namespace lastflat::api {
 
-/// The request breaks the contract. `pointer` (RFC 6901) names the field; empty: the whole document.
+/// The request breaks the contract. `pointer` (RFC 6901) names the field; empty: the whole
+/// document.
 class InvalidRequest : public std::runtime_error {
 public:
     InvalidRequest(std::string pointer, const std::string& detail)

@@ -9,11 +9,11 @@ namespace lastflat::api {
 
 struct Problem {
     int status = 500;
-    std::string code;    ///< stable, for programs
-    std::string title;   ///< the code in words; empty: made from it
-    std::string detail;  ///< what, where, and the mend, for people
-    std::optional<std::string> pointer;              ///< the field of the request at fault
-    std::optional<std::array<double, 3>> position;   ///< the place on the last, mm
+    std::string code;                               ///< stable, for programs
+    std::string title;                              ///< the code in words; empty: made from it
+    std::string detail;                             ///< what, where, and the mend, for people
+    std::optional<std::string> pointer;             ///< the field of the request at fault
+    std::optional<std::array<double, 3>> position;  ///< the place on the last, mm
 };
 
 /// application/problem+json.

@@ -31,9 +31,12 @@ Error& Error::at_option(const std::vector<std::string>& path) {
     for (const std::string& step : path) {
         pointer += '/';
         for (const char c : step) {
-            if (c == '~') pointer += "~0";
-            else if (c == '/') pointer += "~1";
-            else pointer += c;
+            if (c == '~')
+                pointer += "~0";
+            else if (c == '/')
+                pointer += "~1";
+            else
+                pointer += c;
         }
     }
     option_ = std::move(pointer);

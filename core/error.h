@@ -12,22 +12,22 @@
 namespace lastflat {
 
 enum class ErrorCode {
-    unreadable_model,          ///< the bytes are not a well-formed file of their format
-    unsupported_model,         ///< well-formed, but uses something that is not read
-    model_too_large,           ///< a limit on size or counts is exceeded
-    mesh_not_manifold,         ///< an edge or a vertex is shared in a way no surface can be
-    mesh_not_oriented,         ///< neighbouring faces wind in opposite directions
-    mesh_degenerate,           ///< a face without area, a coordinate that is not finite
-    group_not_found,           ///< the request names a group that the model does not have
-    curve_invalid,             ///< a curve is not a path on the surface
-    region_invalid,            ///< a region cannot be told from the request
-    region_not_disk,           ///< a region is not a disk
-    method_failed,             ///< the method has no answer on this region (folded, singular)
-    constraints_infeasible,    ///< the locks cannot all hold
-    border_crosses,            ///< the flat border crosses itself
-    solver_failed,             ///< a linear system could not be solved
-    unsupported_request,       ///< part of the contract, but not in this version
-    cancelled,                 ///< the caller asked to stop
+    unreadable_model,        ///< the bytes are not a well-formed file of their format
+    unsupported_model,       ///< well-formed, but uses something that is not read
+    model_too_large,         ///< a limit on size or counts is exceeded
+    mesh_not_manifold,       ///< an edge or a vertex is shared in a way no surface can be
+    mesh_not_oriented,       ///< neighbouring faces wind in opposite directions
+    mesh_degenerate,         ///< a face without area, a coordinate that is not finite
+    group_not_found,         ///< the request names a group that the model does not have
+    curve_invalid,           ///< a curve is not a path on the surface
+    region_invalid,          ///< a region cannot be told from the request
+    region_not_disk,         ///< a region is not a disk
+    method_failed,           ///< the method has no answer on this region (folded, singular)
+    constraints_infeasible,  ///< the locks cannot all hold
+    border_crosses,          ///< the flat border crosses itself
+    solver_failed,           ///< a linear system could not be solved
+    unsupported_request,     ///< part of the contract, but not in this version
+    cancelled,               ///< the caller asked to stop
 };
 
 /// The stable name of a code, as it stands in problem documents.
@@ -41,7 +41,10 @@ public:
     /// The part of the options that is at fault: {"curves", "heel", "vertices", "12"}.
     Error& at_option(const std::vector<std::string>& path);
     /// The place on the last, in mm.
-    Error& at_position(const Vec3& position) { position_ = position; return *this; }
+    Error& at_position(const Vec3& position) {
+        position_ = position;
+        return *this;
+    }
 
     [[nodiscard]] ErrorCode code() const { return code_; }
     /// The path as a JSON pointer (RFC 6901), such as "/curves/heel/vertices/12".

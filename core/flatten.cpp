@@ -80,7 +80,8 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& options, Pro
     std::vector<Start> starts(regions.size());
     for_each_index(regions.size(), options.threads, [&](std::size_t r) {
         progress.check();
-        starts[r] = start_chart(regions[r], locked_border_edges(regions[r], options.locks), options.method);
+        starts[r] =
+            start_chart(regions[r], locked_border_edges(regions[r], options.locks), options.method);
     });
     result.timing.parameterize_ms = watch.lap();
 

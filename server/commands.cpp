@@ -22,7 +22,9 @@ int report(const api::Problem& problem) {
 }
 
 api::Problem file_problem(int status, const std::string& detail) {
-    return {status, status < 500 ? "file_unreadable" : "file_unwritable", "", detail, std::nullopt, std::nullopt};
+    return {status,       status < 500 ? "file_unreadable" : "file_unwritable",
+            "",           detail,
+            std::nullopt, std::nullopt};
 }
 
 std::optional<std::string> file_bytes(const fs::path& path) {
@@ -88,11 +90,13 @@ int flatten_command(const fs::path& model, const std::optional<fs::path>& reques
     auto bytes = file_bytes(model);
     if (!bytes) return report(file_problem(404, "cannot read the model " + model.string()));
     std::optional<std::string> constraints = request ? file_bytes(*request) : std::string();
-    if (!constraints) return report(file_problem(404, "cannot read the request " + request->string()));
+    if (!constraints)
+        return report(file_problem(404, "cannot read the request " + request->string()));
     JobInput input;
     try {
         const auto wire = api::flatten_request_from_json(*constraints);
-        input = {std::make_shared<const std::string>(std::move(*bytes)), to_options(wire), wire.tag};
+        input = {std::make_shared<const std::string>(std::move(*bytes)), to_options(wire),
+                 wire.tag};
     } catch (const api::InvalidRequest& error) {
         return report(problem_of(error));
     } catch (const Error& error) {

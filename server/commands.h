@@ -8,9 +8,9 @@
 
 namespace lastflat::server {
 
-/// Flattens MODEL and writes DIR/result.json, flat.obj, flat.glb and pattern.svg: all of them or none.
-/// Returns the exit code: 0 done; 2 bad input, 1 anything else, with a problem document on standard
-/// error.
+/// Flattens MODEL and writes DIR/result.json, flat.obj, flat.glb and pattern.svg: all of them or
+/// none. Returns the exit code: 0 done; 2 bad input, 1 anything else, with a problem document on
+/// standard error.
 [[nodiscard]] int flatten_command(const std::filesystem::path& model,
                                   const std::optional<std::filesystem::path>& request,
                                   const std::filesystem::path& directory);

@@ -72,13 +72,17 @@ public:
                 problem.detail = "the job failed: " + problem.detail;
                 throw Refusal(problem);
             }
-            case JobState::canceled: refuse(409, "canceled", "the job was canceled; it has no result");
+            case JobState::canceled:
+                refuse(409, "canceled", "the job was canceled; it has no result");
             case JobState::queued:
             case JobState::running:
             case JobState::canceling:
-                refuse(409, "not_finished", "the job is " + std::string(name(job.state)) + "; ask again later");
+                refuse(409, "not_finished",
+                       "the job is " + std::string(name(job.state)) + "; ask again later");
         }
-        if (!job.output) refuse(410, "result_expired", "the result has been dropped to make room; post the job again");
+        if (!job.output)
+            refuse(410, "result_expired",
+                   "the result has been dropped to make room; post the job again");
         http::Response response;
         response.media_type = media_type(format);
         response.body = bytes_of(*job.output, format);
@@ -117,7 +121,8 @@ public:
 
 private:
     [[noreturn]] static void fail_not_found(const std::string& id) {
-        refuse(404, "job_not_found", "there is no job " + id + "; it may have been deleted or forgotten");
+        refuse(404, "job_not_found",
+               "there is no job " + id + "; it may have been deleted or forgotten");
     }
 
     JobRecord found(const std::string& id) const {
@@ -138,7 +143,8 @@ private:
         job.error = record.error;
         job.stage = job.state;
         if (record.state == JobState::succeeded) job.percent = 100;
-        if (const auto progress = workers_.progress(record.id); progress && !is_final(record.state)) {
+        if (const auto progress = workers_.progress(record.id);
+            progress && !is_final(record.state)) {
             job.stage = name(progress->first);
             job.percent = static_cast<int>(100.0 * progress->second);
         }
@@ -154,8 +160,10 @@ private:
 http::Response problem_response(const api::Problem& problem) {
     http::Response response = json_response(problem.status, api::to_json(problem));
     response.media_type = "application/problem+json";
-    const bool later = problem.status == 503 || problem.status == 429 || problem.code == "not_finished";
-    if (later) response.headers.emplace_back("Retry-After", problem.code == "not_finished" ? "1" : "5");
+    const bool later =
+        problem.status == 503 || problem.status == 429 || problem.code == "not_finished";
+    if (later)
+        response.headers.emplace_back("Retry-After", problem.code == "not_finished" ? "1" : "5");
     return response;
 }
 
@@ -167,7 +175,8 @@ std::vector<http::Route> job_routes(JobStore& store, WorkerPool& workers) {
         {"POST", "/v1/jobs", guarded([=](const Request& r) { return jobs.post(r); }), true, false},
         {"GET", "/v1/jobs/{id}", guarded([=](const Request& r) { return jobs.get(r); })},
         {"DELETE", "/v1/jobs/{id}", guarded([=](const Request& r) { return jobs.remove(r); })},
-        {"GET", "/v1/jobs/{id}/result", guarded([=](const Request& r) { return jobs.get_result(r); })},
+        {"GET", "/v1/jobs/{id}/result",
+         guarded([=](const Request& r) { return jobs.get_result(r); })},
         {"POST", "/v1/jobs/{id}/cancel", guarded([=](const Request& r) { return jobs.cancel(r); })},
         {"GET", "/healthz", [=](const Request&) { return jobs.health(); }, false, true},
         {"GET", "/openapi.json", contract},

@@ -11,6 +11,8 @@ namespace lastflat::server {
 [[nodiscard]] api::Problem problem_of(const api::InvalidRequest& error);
 
 /// Whether the caller can mend it (the command line's exit code 2), or the program is at fault.
-[[nodiscard]] inline bool is_bad_input(const api::Problem& problem) { return problem.status < 500; }
+[[nodiscard]] inline bool is_bad_input(const api::Problem& problem) {
+    return problem.status < 500;
+}
 
 }  // namespace lastflat::server

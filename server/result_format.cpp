@@ -15,8 +15,9 @@ std::string trimmed_lower(std::string_view text) {
     const auto begin = text.find_first_not_of(" \t");
     if (begin == std::string_view::npos) return {};
     std::string word(text.substr(begin, text.find_last_not_of(" \t") + 1 - begin));
-    std::transform(word.begin(), word.end(), word.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    std::transform(word.begin(), word.end(), word.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
     return word;
 }
 
@@ -56,8 +57,10 @@ double acceptance(std::string_view accept, const std::string& type) {
 }
 
 [[noreturn]] void refuse(int status, const char* code, const std::string& what) {
-    throw Refusal({status, code, "", what + "; there are application/json, image/svg+xml, "
-                   "model/gltf-binary and model/obj (format=json, svg, glb, obj)", std::nullopt, std::nullopt});
+    throw Refusal({status, code, "",
+                   what + "; there are application/json, image/svg+xml, "
+                          "model/gltf-binary and model/obj (format=json, svg, glb, obj)",
+                   std::nullopt, std::nullopt});
 }
 
 }  // namespace
@@ -110,7 +113,8 @@ ResultFormat negotiated_format(const http::Request& request) {
             best = format;
         }
     }
-    if (most <= 0.0) refuse(406, "not_acceptable", "no format of the result fits the Accept header");
+    if (most <= 0.0)
+        refuse(406, "not_acceptable", "no format of the result fits the Accept header");
     return best;
 }
 

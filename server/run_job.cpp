@@ -10,11 +10,12 @@
 namespace lastflat::server {
 
 std::shared_ptr<const JobOutput> render(const FlattenResult& result) {
-    const auto share = [](std::string bytes) { return std::make_shared<const std::string>(std::move(bytes)); };
-    return std::make_shared<const JobOutput>(JobOutput{share(api::to_json(to_wire(result))),
-                                                       share(write_svg(result)),
-                                                       share(write_flat_glb(result)),
-                                                       share(write_flat_obj(result))});
+    const auto share = [](std::string bytes) {
+        return std::make_shared<const std::string>(std::move(bytes));
+    };
+    return std::make_shared<const JobOutput>(
+        JobOutput{share(api::to_json(to_wire(result))), share(write_svg(result)),
+                  share(write_flat_glb(result)), share(write_flat_obj(result))});
 }
 
 JobOutcome run_job(const JobInput& input, Progress& progress) {
@@ -24,13 +25,14 @@ JobOutcome run_job(const JobInput& input, Progress& progress) {
         if (error.code() == ErrorCode::cancelled) return {};
         return {nullptr, problem_of(error)};
     } catch (const std::bad_alloc&) {
-        return {nullptr, api::Problem{413, "out_of_memory", "",
-                                      "the model needs more memory than there is; send a coarser one",
-                                      std::nullopt, std::nullopt}};
+        return {nullptr,
+                api::Problem{413, "out_of_memory", "",
+                             "the model needs more memory than there is; send a coarser one",
+                             std::nullopt, std::nullopt}};
     } catch (const std::exception& error) {
         return {nullptr, api::Problem{500, "internal_error", "",
-                                      std::string("an internal error: ") + error.what(), std::nullopt,
-                                      std::nullopt}};
+                                      std::string("an internal error: ") + error.what(),
+                                      std::nullopt, std::nullopt}};
     }
 }
 

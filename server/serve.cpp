@@ -54,8 +54,8 @@ void serve(const Settings& settings) {
     http::Server http(
         job_routes(store, workers), http_limits(settings),
         [](int status, std::string_view code, std::string_view detail) {
-            return problem_response({status, std::string(code), "", std::string(detail), std::nullopt,
-                                     std::nullopt});
+            return problem_response(
+                {status, std::string(code), "", std::string(detail), std::nullopt, std::nullopt});
         },
         [](const http::Request& request, std::string_view what) {
             spdlog::error("{} failed: {}", request.method, what);

@@ -13,7 +13,8 @@ namespace {
 
 JobInput job_input(std::string model, const api::FlattenRequest& request) {
     if (model.empty()) refuse(422, "model_missing", "the model is empty (0 bytes)");
-    return {std::make_shared<const std::string>(std::move(model)), to_options(request), request.tag};
+    return {std::make_shared<const std::string>(std::move(model)), to_options(request),
+            request.tag};
 }
 
 JobInput from_parts(const http::Request& request) {
@@ -21,15 +22,22 @@ JobInput from_parts(const http::Request& request) {
     const http::BodyPart* constraints = nullptr;
     for (const http::BodyPart& part : request.body) {
         const auto take = [&](const http::BodyPart*& place) {
-            if (place != nullptr) refuse(400, "part_repeated", "the part '" + part.name + "' is there twice");
+            if (place != nullptr)
+                refuse(400, "part_repeated", "the part '" + part.name + "' is there twice");
             place = &part;
         };
-        if (part.name == "model") take(model);
-        else if (part.name == "request") take(constraints);
-        else refuse(400, "part_unknown", "unknown part '" + part.name + "'; known are model and request");
+        if (part.name == "model")
+            take(model);
+        else if (part.name == "request")
+            take(constraints);
+        else
+            refuse(400, "part_unknown",
+                   "unknown part '" + part.name + "'; known are model and request");
     }
-    if (model == nullptr) refuse(422, "model_missing", "the part 'model' is missing: send the last's file as it");
-    return job_input(model->bytes, api::flatten_request_from_json(constraints ? constraints->bytes : ""));
+    if (model == nullptr)
+        refuse(422, "model_missing", "the part 'model' is missing: send the last's file as it");
+    return job_input(model->bytes,
+                     api::flatten_request_from_json(constraints ? constraints->bytes : ""));
 }
 
 JobInput from_model_alone(const http::Request& request) {

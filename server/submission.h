@@ -9,7 +9,8 @@ namespace lastflat::server {
 /// A request that cannot be taken.
 class Refusal : public std::runtime_error {
 public:
-    explicit Refusal(api::Problem problem) : std::runtime_error(problem.detail), problem_(std::move(problem)) {}
+    explicit Refusal(api::Problem problem)
+        : std::runtime_error(problem.detail), problem_(std::move(problem)) {}
     [[nodiscard]] const api::Problem& problem() const { return problem_; }
 
 private:

@@ -41,9 +41,10 @@ MethodOptions method_of(const api::MethodRequest& request) {
         case api::Method::virtual_border:
         case api::Method::mips:
         case api::Method::green_lagrange:
-            throw Error(ErrorCode::unsupported_request,
-                        "the method \"" + api::method_names()[static_cast<std::size_t>(request.name)] +
-                            "\" is not in this version; there are isometric, geodesic_fan and mean_value")
+            throw Error(
+                ErrorCode::unsupported_request,
+                "the method \"" + api::method_names()[static_cast<std::size_t>(request.name)] +
+                    "\" is not in this version; there are isometric, geodesic_fan and mean_value")
                 .at_option({"method", "name"});
     }
     switch (request.border.value_or(api::Border::circle)) {
@@ -87,9 +88,19 @@ std::vector<api::Point> to_wire(const Points2& points) {
 }
 
 api::MetricsResult to_wire(const Metrics& m) {
-    return {m.stretch_l2, m.stretch_linf, m.stretch_l2_normalised, m.stretch_linf_normalised,
-            m.symmetric_dirichlet, m.angle_distortion, m.area_3d_mm2, m.area_2d_mm2, m.area_error,
-            m.area_error_p95, word(m.area_verdict), m.flipped_triangles, m.border_crossings};
+    return {m.stretch_l2,
+            m.stretch_linf,
+            m.stretch_l2_normalised,
+            m.stretch_linf_normalised,
+            m.symmetric_dirichlet,
+            m.angle_distortion,
+            m.area_3d_mm2,
+            m.area_2d_mm2,
+            m.area_error,
+            m.area_error_p95,
+            word(m.area_verdict),
+            m.flipped_triangles,
+            m.border_crossings};
 }
 
 api::RegionResult to_wire(const FlatRegion& flat, MethodName method) {
@@ -100,7 +111,8 @@ api::RegionResult to_wire(const FlatRegion& flat, MethodName method) {
     region.triangles.assign(flat.region.triangles.begin(), flat.region.triangles.end());
     region.source_vertices = flat.region.source_vertices;
     region.outline_mm = to_wire(flat.outline.points);
-    for (const auto& s : flat.outline.segments) region.segments.push_back({s.curve, s.first, s.last});
+    for (const auto& s : flat.outline.segments)
+        region.segments.push_back({s.curve, s.first, s.last});
     for (const auto& c : flat.curves) {
         region.curves.push_back({c.name, c.locked, c.length_3d_mm, c.length_2d_mm, c.error_mm,
                                  c.worst_edge_error_mm, word(c.verdict)});
@@ -125,7 +137,8 @@ FlattenOptions to_options(const api::FlattenRequest& request) {
         RegionChoice choice{region.name, {}, {}};
         if (region.contains) {
             choice.vertex = region.contains->vertex;
-            if (const auto& p = region.contains->position) choice.position = Vec3((*p)[0], (*p)[1], (*p)[2]);
+            if (const auto& p = region.contains->position)
+                choice.position = Vec3((*p)[0], (*p)[1], (*p)[2]);
         }
         options.cut.regions.push_back(choice);
     }
@@ -147,12 +160,15 @@ api::FlattenResult to_wire(const FlattenResult& result) {
     wire.height_mm = result.sheet.height;
     for (std::size_t r = 0; r < result.regions.size(); ++r) {
         const Placement& p = result.sheet.placements[r];
-        wire.placements.push_back({result.regions[r].region.name, p.rotation * 180.0 / std::numbers::pi,
-                                   {p.translation.x(), p.translation.y()}, p.mirrored});
+        wire.placements.push_back({result.regions[r].region.name,
+                                   p.rotation * 180.0 / std::numbers::pi,
+                                   {p.translation.x(), p.translation.y()},
+                                   p.mirrored});
     }
     for (const auto& w : result.warnings) {
         wire.warnings.push_back({w.code, w.detail, std::nullopt});
-        if (w.position) wire.warnings.back().position = {w.position->x(), w.position->y(), w.position->z()};
+        if (w.position)
+            wire.warnings.back().position = {w.position->x(), w.position->y(), w.position->z()};
     }
     const Timing& t = result.timing;
     wire.load_ms = t.load_ms;

@@ -20,6 +20,14 @@ done
 temporary=$(mktemp -d)
 trap 'rm -rf -- "$temporary"' EXIT
 
+# A number to so many places; what rounds to nothing has no sign.
+places() {  # places, number
+    local text
+    LC_ALL=C printf -v text "%.$1f" "$2"
+    if [[ $text =~ ^-[0.]*$ ]]; then text=${text#-}; fi
+    echo "$text"
+}
+
 # Prints a problem document and ends: 2 if the request is at fault, 1 if the server is.
 fail() {  # status, file
     jq -r '"flatten.sh: \(.detail)", (.pointer // empty | "  at: \(.)"), "  code: \(.code)"' "$2" >&2 2>/dev/null ||
@@ -81,12 +89,12 @@ jq -r '.regions[] | .name as $region | .curves[] | [$region, .name, .length_3d_m
        (if .locked then "yes" else "no" end), .verdict] | @tsv' "$out/result.json" |
     while IFS=$'\t' read -r region curve length_3d length_2d error locked verdict; do
         # shellcheck disable=SC2059
-        LC_ALL=C printf "$row" "$region" "$curve" "$(LC_ALL=C printf %.3f "$length_3d")" \
-            "$(LC_ALL=C printf %.3f "$length_2d")" "$(LC_ALL=C printf %.6f "$error")" "$locked" "$verdict"
+        printf "$row" "$region" "$curve" "$(places 3 "$length_3d")" "$(places 3 "$length_2d")" \
+            "$(places 6 "$error")" "$locked" "$verdict"
     done
 jq -r '.pairs[] | [.a, .b, .curve, .difference_mm, .verdict] | @tsv' "$out/result.json" |
     while IFS=$'\t' read -r a b curve difference verdict; do
-        LC_ALL=C printf 'pair %s: %s and %s differ by %.6f mm  %s\n' "$curve" "$a" "$b" "$difference" "$verdict"
+        echo "pair $curve: $a and $b differ by $(places 6 "$difference") mm  $verdict"
     done
 jq -r '.warnings[] | "warning: \(.detail)"' "$out/result.json"
 echo "written to $out: result.json pattern.svg flat.glb"

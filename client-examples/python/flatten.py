@@ -67,6 +67,11 @@ def finished(headers, job):
     return job
 
 
+def places(count, number):
+    """To so many places; what rounds to nothing has no sign."""
+    return f"{round(number, count) + 0.0:.{count}f}"
+
+
 def main(last, request=None):
     parts = [("model", "application/octet-stream", pathlib.Path(last).read_bytes())]
     if request:
@@ -91,10 +96,10 @@ def main(last, request=None):
     print(row.format("region", "curve", "last mm", "flat mm", "error mm", "locked", "verdict"))
     for region in result["regions"]:
         for c in region["curves"]:
-            print(row.format(region["name"], c["name"], f"{c['length_3d_mm']:.3f}", f"{c['length_2d_mm']:.3f}",
-                             f"{c['error_mm']:.6f}", "yes" if c["locked"] else "no", c["verdict"]))
+            print(row.format(region["name"], c["name"], places(3, c["length_3d_mm"]), places(3, c["length_2d_mm"]),
+                             places(6, c["error_mm"]), "yes" if c["locked"] else "no", c["verdict"]))
     for p in result["pairs"]:
-        print(f"pair {p['curve']}: {p['a']} and {p['b']} differ by {p['difference_mm']:.6f} mm  {p['verdict']}")
+        print(f"pair {p['curve']}: {p['a']} and {p['b']} differ by {places(6, p['difference_mm'])} mm  {p['verdict']}")
     for warning in result["warnings"]:
         print("warning:", warning["detail"])
     print(f"written to {folder}:", *files)

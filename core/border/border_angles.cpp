@@ -91,7 +91,8 @@ std::vector<double> curvature_turning(const Region& region, const OneRings& ring
     }
     std::vector<double> turning;
     for (const Index v : region.border) {
-        turning.push_back(pi - sums[static_cast<std::size_t>(v)] + flux[static_cast<std::size_t>(v)]);
+        turning.push_back(pi - sums[static_cast<std::size_t>(v)] +
+                          flux[static_cast<std::size_t>(v)]);
     }
     return turning;
 }

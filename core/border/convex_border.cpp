@@ -28,7 +28,8 @@ std::array<std::size_t, 4> quarter_points(const std::vector<double>& arc, std::s
     const std::size_t n = (arc.size() - 1) / 2;
     for (std::size_t q = 1; q < 4; ++q) {
         const double wanted = arc[start] + arc[n] * static_cast<double>(q) / 4.0;
-        auto i = static_cast<std::size_t>(std::lower_bound(arc.begin(), arc.end(), wanted) - arc.begin());
+        auto i = static_cast<std::size_t>(std::lower_bound(arc.begin(), arc.end(), wanted) -
+                                          arc.begin());
         if (wanted - arc[i - 1] < arc[i] - wanted) --i;
         corners[q] = std::clamp(i, corners[q - 1] + 1, start + n - (4 - q));
     }
@@ -41,7 +42,8 @@ double sharpness(const Region& region, const std::array<std::size_t, 4>& corners
     double sum = 0.0;
     for (const std::size_t corner : corners) {
         const std::size_t i = corner % n;
-        sum += angle_at(region.position(region.border[i]), region.position(region.border[(i + n - 1) % n]),
+        sum += angle_at(region.position(region.border[i]),
+                        region.position(region.border[(i + n - 1) % n]),
                         region.position(region.border[(i + 1) % n]));
     }
     return sum;
@@ -101,7 +103,8 @@ Points2 hull_border(const Points2& polygon) {
         const auto last = h + 1 < hull.size() ? static_cast<std::size_t>(hull[h + 1])
                                               : static_cast<std::size_t>(hull.front()) + n;
         double total = 0.0;
-        for (std::size_t i = first; i < last; ++i) total += (polygon[(i + 1) % n] - polygon[i % n]).norm();
+        for (std::size_t i = first; i < last; ++i)
+            total += (polygon[(i + 1) % n] - polygon[i % n]).norm();
         double arc = 0.0;
         for (std::size_t i = first; i < last; ++i) {
             points[i % n] = polygon[first] + arc / total * (polygon[last % n] - polygon[first]);

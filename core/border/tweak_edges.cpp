@@ -29,7 +29,8 @@ Points2 tweak_edges(const std::vector<double>& lengths, const std::vector<double
     if (!(M.determinant() > parallel * 0.25 * M.trace() * M.trace())) {
         throw Error(ErrorCode::method_failed,
                     "the border cannot be closed: all its edges are locked, or all free ones are "
-                    "parallel; unlock " + name_edge(0));
+                    "parallel; unlock " +
+                        name_edge(0));
     }
     const Vec2 multiplier = M.inverse() * c;
     Points2 points{Vec2::Zero()};

@@ -50,8 +50,8 @@ public:
     [[nodiscard]] double worst_length_error() const {
         double worst = 0.0;
         for (Eigen::Index k = 0; k < residual_.size(); ++k) {
-            worst = std::max(worst, std::abs(residual_[k]) /
-                                        constraints_[static_cast<std::size_t>(k)].length);
+            worst = std::max(
+                worst, std::abs(residual_[k]) / constraints_[static_cast<std::size_t>(k)].length);
         }
         return worst;
     }
@@ -135,9 +135,11 @@ private:
     char amount[48];
     std::snprintf(amount, sizeof amount, "%.4f mm", residual[worst]);
     throw Error(ErrorCode::constraints_infeasible,
-                "region '" + region.name + "': the locked lengths cannot all be kept; furthest off "
-                "is curve '" + constraint.curve + "' at " + place(position) + ", by " + amount +
-                "; lock it by \"keep\": \"total\", or not at all")
+                "region '" + region.name +
+                    "': the locked lengths cannot all be kept; furthest off "
+                    "is curve '" +
+                    constraint.curve + "' at " + place(position) + ", by " + amount +
+                    "; lock it by \"keep\": \"total\", or not at all")
         .at_option({"locks"})
         .at_position(position);
 }
@@ -170,8 +172,8 @@ Minimum minimise_distortion(const Region& region, const Chart& start,
                             const IsotropicEnergy& energy, const Progress& progress) {
     const auto flipped = flipped_triangles(region, start.uv);
     if (!flipped.empty()) {
-        throw Error(ErrorCode::method_failed, std::to_string(flipped.size()) +
-                                                  " triangles of the start are flipped");
+        throw Error(ErrorCode::method_failed,
+                    std::to_string(flipped.size()) + " triangles of the start are flipped");
     }
     Distortion distortion(region, energy);
     Eigen::VectorXd x = area_scale(region, start.uv) * coordinates(start.uv);

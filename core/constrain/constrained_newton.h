@@ -10,8 +10,8 @@ namespace lastflat {
 
 struct Minimum {
     Chart chart;
-    int iterations = 0;            ///< Newton steps, approach and locked phase together
-    double energy = 0.0;           ///< mean density over the surface
+    int iterations = 0;               ///< Newton steps, approach and locked phase together
+    double energy = 0.0;              ///< mean density over the surface
     double worst_length_error = 0.0;  ///< of a constraint, as a share of its length
 };
 

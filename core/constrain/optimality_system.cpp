@@ -88,7 +88,8 @@ Eigen::VectorXd OptimalitySystem::residual(const Eigen::VectorXd& x) const {
 }
 
 /// Gradient: the unit vectors along the edges. Hessian: an edge that turns grows longer by second
-/// order; under compression (multiplier < 0) that lowers the energy, which a projected system drops.
+/// order; under compression (multiplier < 0) that lowers the energy, which a projected system
+/// drops.
 void OptimalitySystem::add_constraint(Index row, const Eigen::VectorXd& x, double multiplier,
                                       HessianKind kind) {
     const double weight = kind == HessianKind::exact ? multiplier : std::max(multiplier, 0.0);

@@ -10,6 +10,7 @@ namespace lastflat {
 /// region, so that the flat area is the surface's.
 ///
 /// Paper: [kim-kim], section 3 ("lastly, we rescale"), which gives no formula.
-[[nodiscard]] Chart scaled_to_locks(const Region& region, Chart chart, const std::vector<Lock>& locks);
+[[nodiscard]] Chart scaled_to_locks(const Region& region, Chart chart,
+                                    const std::vector<Lock>& locks);
 
 }  // namespace lastflat

@@ -20,8 +20,10 @@ std::vector<BorderSegment> border_segments(const Region& region) {
             backward = backward && on_border && (place(k) + 1) % n == place(k - 1);
         }
         const std::size_t end = run.vertices.size() - 1;
-        if (forward) segments.push_back({run.curve, place(0), place(end)});
-        else if (backward) segments.push_back({run.curve, place(end), place(0)});
+        if (forward)
+            segments.push_back({run.curve, place(0), place(end)});
+        else if (backward)
+            segments.push_back({run.curve, place(end), place(0)});
     }
     return segments;
 }

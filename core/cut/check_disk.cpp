@@ -49,8 +49,7 @@ std::string loop_places(const Region& region, const std::vector<std::vector<Inde
 }
 
 [[noreturn]] void fail(const Region& region, const std::string& what) {
-    throw Error(ErrorCode::region_not_disk,
-                "region '" + region.name + "' is not a disk: " + what)
+    throw Error(ErrorCode::region_not_disk, "region '" + region.name + "' is not a disk: " + what)
         .at_option({"regions", region.name})
         .at_position(region.position(0));
 }

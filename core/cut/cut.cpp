@@ -152,7 +152,8 @@ Region extract(const SurfaceMesh& surface, const Pieces& pieces, Index piece) {
         return a.fan != b.fan ? a.fan < b.fan : a.slot < b.slot;
     });
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        if (i == 0 || corners[i].source != corners[i - 1].source || corners[i].fan != corners[i - 1].fan) {
+        if (i == 0 || corners[i].source != corners[i - 1].source ||
+            corners[i].fan != corners[i - 1].fan) {
             region.source_vertices.push_back(corners[i].source);
             region.positions.push_back(surface.position(corners[i].source));
         }
@@ -171,7 +172,8 @@ std::vector<Region> cut_into_regions(const SurfaceMesh& surface, const Curves& c
     std::vector<Index> chosen;
     for (const RegionChoice& choice : choices) {
         const Index piece = chosen_piece(surface, pieces, choice);
-        if (const auto twin = std::find(chosen.begin(), chosen.end(), piece); twin != chosen.end()) {
+        if (const auto twin = std::find(chosen.begin(), chosen.end(), piece);
+            twin != chosen.end()) {
             const auto other = static_cast<std::size_t>(twin - chosen.begin());
             fail_choice(choice, "is the same piece as region '" + choices[other].name +
                                     "'; no cut separates them");

@@ -19,10 +19,10 @@ struct CurveRun {
 /// A triangulated disk with ids of its own, in ascending order of the file's ids.
 struct Region {
     std::string name;
-    Points3 positions;                    ///< mm
-    std::vector<Triangle> triangles;      ///< counter-clockwise seen from outside
-    std::vector<Index> border;            ///< the border loop, counter-clockwise seen from outside
-    std::vector<Index> source_vertices;   ///< per vertex, its id in the file
+    Points3 positions;                   ///< mm
+    std::vector<Triangle> triangles;     ///< counter-clockwise seen from outside
+    std::vector<Index> border;           ///< the border loop, counter-clockwise seen from outside
+    std::vector<Index> source_vertices;  ///< per vertex, its id in the file
     std::vector<CurveRun> runs;
 
     [[nodiscard]] const Vec3& position(Index vertex) const {

@@ -85,7 +85,8 @@ std::string GlbContainer::write() const {
     Json document = document_;
     document["buffers"] = Json::array({{{"byteLength", buffer_.size()}}});
     std::string chunks;
-    append_chunk(chunks, 0x4E4F534A, document.dump(-1, ' ', false, Json::error_handler_t::replace), ' ');
+    append_chunk(chunks, 0x4E4F534A, document.dump(-1, ' ', false, Json::error_handler_t::replace),
+                 ' ');
     append_chunk(chunks, 0x004E4942, buffer_, '\0');
     std::string bytes = "glTF";
     append(bytes, std::uint32_t{2});

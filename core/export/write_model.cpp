@@ -43,7 +43,8 @@ std::map<std::uint32_t, std::vector<Triangle>> by_label(const RawMesh& mesh) {
 
 std::string group_name(const RawMesh& mesh, std::uint32_t label) {
     std::string name;
-    for (const auto& word : mesh.label_sets[label]) name += (name.empty() ? "" : " ") + obj_word(word);
+    for (const auto& word : mesh.label_sets[label])
+        name += (name.empty() ? "" : " ") + obj_word(word);
     return name;
 }
 
@@ -97,7 +98,8 @@ std::string write_model_obj(const RawMesh& mesh) {
     for (const Vec3& p : mesh.positions) append(text, "v %.4f %.4f %.4f\n", p.x(), p.y(), p.z());
     for (const auto& [label, triangles] : by_label(mesh)) {
         text += "g " + group_name(mesh, label) + "\n";
-        for (const Triangle& t : triangles) append(text, "f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
+        for (const Triangle& t : triangles)
+            append(text, "f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
     }
     return text;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 namespace lastflat {
 namespace {
@@ -44,9 +45,12 @@ std::string escaped(const std::string& text) {
 /// White where the flat piece is as large as the last, red where larger, blue where smaller.
 std::string colour(int level) {
     const double t = std::abs(level) / static_cast<double>(classes);
-    const std::array<double, 3> full = level > 0 ? std::array{190.0, 30.0, 45.0} : std::array{25.0, 80.0, 170.0};
+    const std::array<double, 3> full =
+        level > 0 ? std::array{190.0, 30.0, 45.0} : std::array{25.0, 80.0, 170.0};
     char text[8];
-    const auto mix = [&](double channel) { return static_cast<int>(std::lround(255.0 + t * (channel - 255.0))); };
+    const auto mix = [&](double channel) {
+        return static_cast<int>(std::lround(255.0 + t * (channel - 255.0)));
+    };
     std::snprintf(text, sizeof text, "#%02x%02x%02x", mix(full[0]), mix(full[1]), mix(full[2]));
     return text;
 }
@@ -55,7 +59,9 @@ std::string colour(int level) {
 class Page {
 public:
     explicit Page(const Sheet& sheet) : height_(sheet.height) {}
-    [[nodiscard]] Vec2 operator()(const Vec2& p) const { return {p.x() + margin, height_ - p.y() + margin}; }
+    [[nodiscard]] Vec2 operator()(const Vec2& p) const {
+        return {p.x() + margin, height_ - p.y() + margin};
+    }
     [[nodiscard]] std::string point(const Vec2& p) const {
         const Vec2 q = (*this)(p);
         return number(q.x()) + " " + number(q.y());
@@ -75,7 +81,8 @@ std::string stretch_paths(const FlatRegion& flat, const Points2& places, const P
         auto& path = paths[static_cast<std::size_t>(std::lround(share * classes) + classes)];
         const Triangle& triangle = flat.region.triangles[t];
         for (std::size_t i = 0; i < 3; ++i) {
-            path += (i == 0 ? "M" : "L") + page.point(places[static_cast<std::size_t>(triangle[i])]);
+            path +=
+                (i == 0 ? "M" : "L") + page.point(places[static_cast<std::size_t>(triangle[i])]);
         }
         path += "z";
     }
@@ -91,34 +98,41 @@ std::string stretch_paths(const FlatRegion& flat, const Points2& places, const P
 
 std::string polyline(const Points2& points, const Page& page, bool closed) {
     std::string d;
-    for (std::size_t i = 0; i < points.size(); ++i) d += (i == 0 ? "M" : "L") + page.point(points[i]);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        d += (i == 0 ? "M" : "L") + page.point(points[i]);
     return closed ? d + "z" : d;
 }
 
+std::string label_text(const CurveReport& report) {
+    const std::string text = escaped(report.name) + " " + fixed(report.length_2d_mm, 2) + " mm";
+    if (report.locked) return text + " locked";
+    return text + " (last " + fixed(report.length_3d_mm, 2) + ", " +
+           (report.error_mm < 0 ? "" : "+") + fixed(report.error_mm, 2) + ")";
+}
+
+/// The curve's name and lengths along it, inside the piece, where no other piece can lie.
 std::string label(const FlatRegion& flat, std::size_t run_index, const Points2& places,
                   const Page& page) {
     const CurveRun& run = flat.region.runs[run_index];
-    const CurveReport& report = flat.curves[run_index];
-    const std::size_t middle = run.vertices.size() / 2;
-    const Vec2 here = page(places[static_cast<std::size_t>(run.vertices[middle])]);
-    const Vec2 before = page(places[static_cast<std::size_t>(run.vertices[middle - 1])]);
+    const std::size_t last = run.vertices.size() - 1, middle = run.vertices.size() / 2;
+    const std::size_t reach = std::max<std::size_t>(1, last / 6);
+    const auto at = [&](std::size_t i) {
+        return page(places[static_cast<std::size_t>(run.vertices[i])]);
+    };
+    Vec2 along = at(std::min(last, middle + reach)) - at(middle - std::min(middle, reach));
+    if (along.x() < 0.0) along = -along;  // so that no text stands on its head
+    along = along.norm() > 0.0 ? Vec2(along.normalized()) : Vec2::UnitX();
     Vec2 centre = Vec2::Zero();
     for (const Index v : flat.region.border) centre += page(places[static_cast<std::size_t>(v)]);
     centre /= static_cast<double>(flat.region.border.size());
-    Vec2 inward(before.y() - here.y(), here.x() - before.x());
-    if (inward.dot(centre - here) < 0.0) inward = -inward;
-    if (inward.norm() > 0.0) inward.normalize();
-    const Vec2 at = here + 7.0 * inward;  // inside the piece, where no other piece can lie
-    const char* anchor = inward.x() > 0.6 ? "start" : inward.x() < -0.6 ? "end" : "middle";
-    std::string text = escaped(report.name) + " " + fixed(report.length_2d_mm, 2) + " mm";
-    if (!report.locked) {
-        text += " (last " + fixed(report.length_3d_mm, 2) + ", " +
-                (report.error_mm < 0 ? "" : "+") + fixed(report.error_mm, 2) + ")";
-    } else {
-        text += " locked";
-    }
-    return "<text x=\"" + number(at.x()) + "\" y=\"" + number(at.y()) + "\" text-anchor=\"" + anchor +
-           "\">" + text + "</text>\n";
+    const Vec2 down(-along.y(), along.x());
+    // Below the curve, the text's own height comes on top of the distance.
+    const double offset = down.dot(centre - at(middle)) > 0.0 ? 5.0 : -2.0;
+    const Vec2 place = at(middle) + offset * down;
+    const double degrees = std::atan2(along.y(), along.x()) * 180.0 / std::numbers::pi;
+    return "<text transform=\"translate(" + number(place.x()) + " " + number(place.y()) +
+           ") rotate(" + number(degrees) + ")\" text-anchor=\"middle\">" +
+           label_text(flat.curves[run_index]) + "</text>\n";
 }
 
 std::string piece(const FlatRegion& flat, const Placement& placement, const Page& page) {
@@ -136,20 +150,23 @@ std::string piece(const FlatRegion& flat, const Placement& placement, const Page
                       polyline(outline, page, true) + "\"/>\n";
     for (std::size_t i = 0; i < flat.region.runs.size(); ++i) {
         Points2 points;
-        for (const Index v : flat.region.runs[i].vertices) points.push_back(places[static_cast<std::size_t>(v)]);
+        for (const Index v : flat.region.runs[i].vertices)
+            points.push_back(places[static_cast<std::size_t>(v)]);
         svg += "<path class=\"curve" + std::string(flat.curves[i].locked ? " locked" : "") +
                "\" data-curve=\"" + escaped(flat.region.runs[i].curve) + "\" d=\"" +
                polyline(points, page, false) + "\"/>\n" + label(flat, i, places, page);
     }
     svg += "<text class=\"name\" x=\"" + number(centre.x()) + "\" y=\"" + number(centre.y()) +
-           "\" text-anchor=\"middle\">" + name + (placement.mirrored ? " (mirrored)" : "") + "</text>\n";
+           "\" text-anchor=\"middle\">" + name + (placement.mirrored ? " (mirrored)" : "") +
+           "</text>\n";
     return svg + "</g>\n";
 }
 
 std::string scale_bar(double y) {
     std::string svg = "<g class=\"mark\"><path d=\"M" + number(margin) + " " + number(y) + "h100M" +
                       number(margin) + " " + number(y - 2) + "v4M" + number(margin + 50) + " " +
-                      number(y - 1.5) + "v3M" + number(margin + 100) + " " + number(y - 2) + "v4\"/>";
+                      number(y - 1.5) + "v3M" + number(margin + 100) + " " + number(y - 2) +
+                      "v4\"/>";
     return svg + "<text x=\"" + number(margin) + "\" y=\"" + number(y + 6) +
            "\">100 mm; print at 100 %</text></g>\n";
 }
@@ -162,10 +179,10 @@ std::string colour_key(double y, double right) {
                "\" width=\"3\" height=\"4\" fill=\"" + colour(level) + "\"/>";
     }
     const double end = left + cell * (2 * classes + 1);
-    return svg + "<text x=\"" + number(left) + "\" y=\"" + number(y + 6) + "\">-5 %</text><text x=\"" +
-           number(0.5 * (left + end)) + "\" y=\"" + number(y + 6) +
-           "\" text-anchor=\"middle\">flat against last</text><text x=\"" + number(end) + "\" y=\"" +
-           number(y + 6) + "\" text-anchor=\"end\">+5 %</text></g>\n";
+    return svg + "<text x=\"" + number(left) + "\" y=\"" + number(y + 6) +
+           "\">-5 %</text><text x=\"" + number(0.5 * (left + end)) + "\" y=\"" + number(y + 6) +
+           "\" text-anchor=\"middle\">flat against last</text><text x=\"" + number(end) +
+           "\" y=\"" + number(y + 6) + "\" text-anchor=\"end\">+5 %</text></g>\n";
 }
 
 }  // namespace

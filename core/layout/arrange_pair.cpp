@@ -77,7 +77,8 @@ Vec2 Placement::apply(const Vec2& point) const {
     return translation + Vec2(c * p.x() - s * p.y(), s * p.x() + c * p.y());
 }
 
-Sheet arrange_pair(const std::vector<Region>& regions, const std::vector<Chart>& charts, double gap) {
+Sheet arrange_pair(const std::vector<Region>& regions, const std::vector<Chart>& charts,
+                   double gap) {
     Sheet sheet;
     const auto mirrored = mirrored_regions(regions, charts);
     constexpr double cell = 1.0;  // mm

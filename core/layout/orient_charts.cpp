@@ -32,7 +32,8 @@ std::optional<BorderSegment> front_segment(const std::vector<BorderSegment>& seg
 double border_length(const Region& region, Index from, Index to) {
     const std::size_t n = region.border.size();
     double length = 0.0;
-    for (auto i = static_cast<std::size_t>(from); i != static_cast<std::size_t>(to); i = (i + 1) % n) {
+    for (auto i = static_cast<std::size_t>(from); i != static_cast<std::size_t>(to);
+         i = (i + 1) % n) {
         length += region.distance(region.border[i], region.border[(i + 1) % n]);
     }
     return length;
@@ -87,7 +88,8 @@ std::optional<BaseLine> named_base_line(const Region& region) {
     const auto front = front_segment(segments);
     if (heel == nullptr || !front) return std::nullopt;
     const auto vertex = [&](Index place) { return region.border[static_cast<std::size_t>(place)]; };
-    if (border_length(region, heel->last, front->first) > border_length(region, front->last, heel->first)) {
+    if (border_length(region, heel->last, front->first) >
+        border_length(region, front->last, heel->first)) {
         return BaseLine{vertex(heel->last), vertex(front->first)};
     }
     return BaseLine{vertex(heel->first), vertex(front->last)};
@@ -99,7 +101,8 @@ Vec3 long_axis(const std::vector<Region>& regions) {
     const auto for_triangles = [&](auto visit) {
         for (const Region& region : regions) {
             for (const Triangle& t : region.triangles) {
-                const Vec3 &a = region.position(t[0]), &b = region.position(t[1]), &c = region.position(t[2]);
+                const Vec3 &a = region.position(t[0]), &b = region.position(t[1]),
+                           &c = region.position(t[2]);
                 visit(Vec3((a + b + c) / 3.0), 0.5 * (b - a).cross(c - a).norm());
             }
         }
@@ -116,7 +119,8 @@ Vec3 long_axis(const std::vector<Region>& regions) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
     Vec3 axis = eigen.eigenvectors().col(2);
     double skew = 0.0;  // the longer tail decides the sign, so that it turns with the last
-    for_triangles([&](const Vec3& centre, double a) { skew += a * std::pow((centre - mean).dot(axis), 3); });
+    for_triangles(
+        [&](const Vec3& centre, double a) { skew += a * std::pow((centre - mean).dot(axis), 3); });
     return skew < 0.0 ? Vec3(-axis) : axis;
 }
 
@@ -126,7 +130,8 @@ void orient_charts(const std::vector<Region>& regions, std::vector<Chart>& chart
         Points2& uv = charts[r].uv;
         Vec2 base = direction_of(axis, patches(regions[r], charts[r]));
         if (const auto line = named_base_line(regions[r])) {
-            base = uv[static_cast<std::size_t>(line->toe)] - uv[static_cast<std::size_t>(line->seat)];
+            base =
+                uv[static_cast<std::size_t>(line->toe)] - uv[static_cast<std::size_t>(line->seat)];
         }
         const double length = base.norm();
         const Vec2 along = length > 0.0 ? Vec2(base / length) : Vec2::UnitX();

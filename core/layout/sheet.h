@@ -9,7 +9,7 @@ namespace lastflat {
 /// A piece's points go to the sheet by: mirror (y -> -y) if mirrored, then turn, then move.
 struct Placement {
     bool mirrored = false;
-    double rotation = 0.0;  ///< radians, counter-clockwise
+    double rotation = 0.0;            ///< radians, counter-clockwise
     Vec2 translation = Vec2::Zero();  ///< mm
 
     [[nodiscard]] Vec2 apply(const Vec2& point) const;
@@ -23,9 +23,9 @@ struct Sheet {
 
 /// Turns every chart so that it lies as a pattern is read: base line (from the seat to the toe
 /// point) along +x, lowest left corner of its box at the origin. Seat and toe point are the ends of
-/// the curves `heel` and `centre_front` (or its parts `toe` and `instep`) towards the longer stretch
-/// of border between them; where a region lacks them, the long axis of all regions in space takes
-/// the base line's place.
+/// the curves `heel` and `centre_front` (or its parts `toe` and `instep`) towards the longer
+/// stretch of border between them; where a region lacks them, the long axis of all regions in space
+/// takes the base line's place.
 ///
 /// Out: charts that do not depend on how the last lay in space.
 void orient_charts(const std::vector<Region>& regions, std::vector<Chart>& charts);

@@ -7,7 +7,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-[[noreturn]] void refuse(ErrorCode code, const std::string& what) { throw Error(code, "glTF: " + what); }
+[[noreturn]] void refuse(ErrorCode code, const std::string& what) {
+    throw Error(code, "glTF: " + what);
+}
 
 /// Counts brackets outside strings; general readers recurse on what they enclose.
 void guard_depth(std::string_view json, std::size_t limit) {
@@ -37,7 +39,8 @@ void guard_extensions(const Json& document) {
     if (!required->is_array()) refuse(ErrorCode::unreadable_model, "extensionsRequired is no list");
     for (const Json& extension : *required) {
         if (!extension.is_string()) {
-            refuse(ErrorCode::unreadable_model, "extensionsRequired holds something else than names");
+            refuse(ErrorCode::unreadable_model,
+                   "extensionsRequired holds something else than names");
         }
         const auto name = extension.get<std::string>();
         if (name == "KHR_mesh_quantization" || name == "KHR_materials_unlit" ||
@@ -56,7 +59,8 @@ void guard_files(const Json& document, const char* list) {
     if (!items->is_array()) refuse(ErrorCode::unreadable_model, std::string(list) + " is no list");
     for (const Json& item : *items) {
         if (!item.is_object()) {
-            refuse(ErrorCode::unreadable_model, std::string(list) + " holds something else than objects");
+            refuse(ErrorCode::unreadable_model,
+                   std::string(list) + " holds something else than objects");
         }
         const auto uri = item.find("uri");
         if (uri == item.end()) continue;

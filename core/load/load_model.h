@@ -16,7 +16,7 @@ struct LoadLimits {
     std::size_t polygon_corners = 4096;  ///< of one OBJ face
     std::size_t name_bytes = 256;        ///< of one group name
     std::size_t group_names = 4096;
-    std::size_t json_depth = 64;         ///< nesting inside glTF
+    std::size_t json_depth = 64;  ///< nesting inside glTF
 };
 
 /// Reads a model: Wavefront OBJ, glTF 2.0 or binary glTF (GLB). The content decides the format.

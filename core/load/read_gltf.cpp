@@ -47,19 +47,19 @@ Elements checked_elements(const tinygltf::Model& model, int index, int type) {
     }
     const auto& view = item(model.bufferViews, accessor.bufferView, "bufferView");
     const auto& buffer = item(model.buffers, view.buffer, "buffer");
-    const int component = tinygltf::GetComponentSizeInBytes(
-        static_cast<std::uint32_t>(accessor.componentType));
+    const int component =
+        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
     const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
     if (component <= 0 || components <= 0) fail(name + " has an unknown component type");
     const auto size = static_cast<std::size_t>(component * components);
     const std::size_t stride = view.byteStride != 0 ? view.byteStride : size;
     if (accessor.count == 0) fail(name + " is empty");
     const std::size_t data = buffer.data.size();
-    const bool fits = view.byteOffset <= data && view.byteLength <= data - view.byteOffset &&
-                      accessor.byteOffset <= view.byteLength &&
-                      size <= view.byteLength - accessor.byteOffset && stride >= size &&
-                      (accessor.count - 1) <=
-                          (view.byteLength - accessor.byteOffset - size) / stride;
+    const bool fits =
+        view.byteOffset <= data && view.byteLength <= data - view.byteOffset &&
+        accessor.byteOffset <= view.byteLength && size <= view.byteLength - accessor.byteOffset &&
+        stride >= size &&
+        (accessor.count - 1) <= (view.byteLength - accessor.byteOffset - size) / stride;
     if (!fits) fail(name + " reaches past the end of its buffer");
     return {buffer.data.data() + view.byteOffset + accessor.byteOffset, stride, accessor.count,
             accessor.componentType, accessor.normalized};
@@ -71,8 +71,9 @@ double component(const unsigned char* at, bool normalized) {
     std::memcpy(&value, at, sizeof value);
     if constexpr (std::is_integral_v<T>) {
         if (normalized) {  // glTF 2.0, 3.11: signed values clamp at -1
-            return std::max(static_cast<double>(value) /
-                                static_cast<double>(std::numeric_limits<T>::max()), -1.0);
+            return std::max(
+                static_cast<double>(value) / static_cast<double>(std::numeric_limits<T>::max()),
+                -1.0);
         }
     }
     return static_cast<double>(value);
@@ -81,7 +82,8 @@ double component(const unsigned char* at, bool normalized) {
 double read_component(const Elements& elements, std::size_t element, std::size_t i) {
     const unsigned char* at = elements.bytes + element * elements.stride;
     switch (elements.component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE: return component<std::int8_t>(at + i, elements.normalized);
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return component<std::int8_t>(at + i, elements.normalized);
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
             return component<std::uint8_t>(at + i, elements.normalized);
         case TINYGLTF_COMPONENT_TYPE_SHORT:
@@ -151,7 +153,8 @@ private:
                    std::size_t depth) {
         const auto& node = item(model_.nodes, index, "node");
         if (depth > limits_.json_depth || ++visits_ > max_visits) {
-            fail("node " + std::to_string(index) + " is its own descendant, or the scene is too deep");
+            fail("node " + std::to_string(index) +
+                 " is its own descendant, or the scene is too deep");
         }
         add_name(names, node.name);
         const Eigen::Affine3d transform = parent * transform_of(node);
@@ -191,11 +194,13 @@ private:
         const std::size_t step = mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
         for (std::size_t i = 0; i + 3 <= corners.size(); i += step) {
             Triangle triangle{corners[i], corners[i + 1], corners[i + 2]};
-            if (mode == TINYGLTF_MODE_TRIANGLE_STRIP && i % 2 == 1) std::swap(triangle[0], triangle[1]);
+            if (mode == TINYGLTF_MODE_TRIANGLE_STRIP && i % 2 == 1)
+                std::swap(triangle[0], triangle[1]);
             if (mode == TINYGLTF_MODE_TRIANGLE_FAN) triangle[0] = corners[0];
             if (mirrored) std::swap(triangle[1], triangle[2]);
             if (mode != TINYGLTF_MODE_TRIANGLES &&  // strips repeat vertices to turn corners
-                (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])) {
+                (triangle[0] == triangle[1] || triangle[1] == triangle[2] ||
+                 triangle[2] == triangle[0])) {
                 continue;
             }
             mesh_.triangles.push_back(triangle);
@@ -224,7 +229,8 @@ private:
             const Vec3 position = transform * local;
             if (!position.allFinite()) {
                 fail("vertex " + std::to_string(i) + " of accessor " + std::to_string(accessor) +
-                         " is not finite", ErrorCode::mesh_degenerate);
+                         " is not finite",
+                     ErrorCode::mesh_degenerate);
             }
             mesh_.positions.push_back(position);
         }
@@ -243,7 +249,8 @@ private:
         if (elements.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT ||
             elements.component_type == TINYGLTF_COMPONENT_TYPE_BYTE ||
             elements.component_type == TINYGLTF_COMPONENT_TYPE_SHORT) {
-            fail("accessor " + std::to_string(accessor) + " holds indices of a type that has a sign");
+            fail("accessor " + std::to_string(accessor) +
+                 " holds indices of a type that has a sign");
         }
         if (elements.count / 3 > limits_.triangles) {
             fail("more than " + std::to_string(limits_.triangles) + " triangles",
@@ -252,8 +259,9 @@ private:
         for (std::size_t i = 0; i < elements.count; ++i) {
             const double index = read_component(elements, i, 0);
             if (index >= static_cast<double>(count)) {
-                fail("index " + std::to_string(static_cast<std::uint64_t>(index)) + " of accessor " +
-                     std::to_string(accessor) + " is past its " + std::to_string(count) + " vertices");
+                fail("index " + std::to_string(static_cast<std::uint64_t>(index)) +
+                     " of accessor " + std::to_string(accessor) + " is past its " +
+                     std::to_string(count) + " vertices");
             }
             corners.push_back(base + static_cast<Index>(index));
         }
@@ -277,9 +285,15 @@ private:
     bool any_indices_ = false;
 };
 
-bool no_file_exists(const std::string&, void*) { return false; }
-std::string no_expansion(const std::string&, void*) { return {}; }
-bool read_no_file(std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; }
+bool no_file_exists(const std::string&, void*) {
+    return false;
+}
+std::string no_expansion(const std::string&, void*) {
+    return {};
+}
+bool read_no_file(std::vector<unsigned char>*, std::string*, const std::string&, void*) {
+    return false;
+}
 bool write_no_file(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
     return false;
 }
@@ -300,7 +314,8 @@ RawMesh read_with_tinygltf(std::string_view bytes, bool binary, const LoadLimits
     const auto size = static_cast<unsigned>(bytes.size());
     const bool read =
         binary ? reader.LoadBinaryFromMemory(&model, &error, &warning,
-                                             reinterpret_cast<const unsigned char*>(bytes.data()), size)
+                                             reinterpret_cast<const unsigned char*>(bytes.data()),
+                                             size)
                : reader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
     if (!read) {
         while (!error.empty() && (error.back() == '\n' || error.back() == ' ')) error.pop_back();

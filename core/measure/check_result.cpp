@@ -35,8 +35,9 @@ void check_crossings(const Region& region, const Points2& uv, MethodName method,
 
 }  // namespace
 
-void check_result(const Region& region, const Points2& uv, MethodName method, const Metrics& metrics,
-                  const std::vector<CurveReport>& curves, std::vector<Warning>& warnings) {
+void check_result(const Region& region, const Points2& uv, MethodName method,
+                  const Metrics& metrics, const std::vector<CurveReport>& curves,
+                  std::vector<Warning>& warnings) {
     if (metrics.flipped_triangles > 0) {
         throw Error(ErrorCode::method_failed,
                     "region '" + region.name + "': the map folds, " +

@@ -7,10 +7,13 @@
 
 namespace lastflat {
 
-/// Throws: Error{method_failed} if triangles are flipped; with `isometric` also Error{border_crosses}
+/// Throws: Error{method_failed} if triangles are flipped; with `isometric` also
+/// Error{border_crosses}
 ///         and Error{constraints_infeasible} if a lock is not kept. Other methods promise neither:
-///         a border that crosses itself becomes a warning, open locks stand in the curves' verdicts.
-void check_result(const Region& region, const Points2& uv, MethodName method, const Metrics& metrics,
-                  const std::vector<CurveReport>& curves, std::vector<Warning>& warnings);
+///         a border that crosses itself becomes a warning, open locks stand in the curves'
+///         verdicts.
+void check_result(const Region& region, const Points2& uv, MethodName method,
+                  const Metrics& metrics, const std::vector<CurveReport>& curves,
+                  std::vector<Warning>& warnings);
 
 }  // namespace lastflat

@@ -16,7 +16,8 @@ Lengths lengths_of(const Region& region, const Points2& uv, const CurveRun& run)
     for (std::size_t i = 1; i < run.vertices.size(); ++i) {
         const double in_space = region.distance(run.vertices[i - 1], run.vertices[i]);
         const double flat = (uv[static_cast<std::size_t>(run.vertices[i])] -
-                             uv[static_cast<std::size_t>(run.vertices[i - 1])]).norm();
+                             uv[static_cast<std::size_t>(run.vertices[i - 1])])
+                                .norm();
         sum.in_space += in_space;
         sum.flat += flat;
         const double error = std::abs(flat - in_space);
@@ -35,8 +36,8 @@ Verdict graded(double value, double pass, double warn) {
 Verdict verdict_on(const std::string& curve, const Lock* lock, const Lengths& lengths) {
     const double error = std::abs(lengths.flat - lengths.in_space);
     if (lock != nullptr) {
-        const double relative = lock->keep == Keep::edges ? lengths.worst_edge_relative
-                                                          : error / lengths.in_space;
+        const double relative =
+            lock->keep == Keep::edges ? lengths.worst_edge_relative : error / lengths.in_space;
         return relative <= tolerance::locked_length ? Verdict::pass : Verdict::fail;
     }
     if (curve == "topline") return graded(error, 0.5, 1.5);
@@ -83,18 +84,21 @@ std::vector<PairReport> measure_pairs(const std::vector<Region>& regions,
     };
     std::vector<Side> sides;
     for (std::size_t r = 0; r < regions.size(); ++r) {
-        for (const CurveRun& run : regions[r].runs) sides.push_back({r, &run, sources_of(regions[r], run)});
+        for (const CurveRun& run : regions[r].runs)
+            sides.push_back({r, &run, sources_of(regions[r], run)});
     }
     std::vector<PairReport> pairs;
     for (std::size_t i = 0; i < sides.size(); ++i) {
         for (std::size_t j = i + 1; j < sides.size(); ++j) {
             const Side &a = sides[i], &b = sides[j];
             if (a.run->curve != b.run->curve || a.sources != b.sources) continue;
-            const double difference = lengths_of(regions[a.region], charts[a.region].uv, *a.run).flat -
-                                      lengths_of(regions[b.region], charts[b.region].uv, *b.run).flat;
-            pairs.push_back({a.run->curve, regions[a.region].name, regions[b.region].name, difference,
-                             std::abs(difference) <= tolerance::pair_difference_mm ? Verdict::pass
-                                                                                   : Verdict::fail});
+            const double difference =
+                lengths_of(regions[a.region], charts[a.region].uv, *a.run).flat -
+                lengths_of(regions[b.region], charts[b.region].uv, *b.run).flat;
+            pairs.push_back(
+                {a.run->curve, regions[a.region].name, regions[b.region].name, difference,
+                 std::abs(difference) <= tolerance::pair_difference_mm ? Verdict::pass
+                                                                       : Verdict::fail});
         }
     }
     return pairs;

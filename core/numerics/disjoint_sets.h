@@ -20,8 +20,10 @@ public:
     void join(Index a, Index b) {
         a = find(a);
         b = find(b);
-        if (a < b) parent(b) = a;
-        else parent(a) = b;
+        if (a < b)
+            parent(b) = a;
+        else
+            parent(a) = b;
     }
 
 private:

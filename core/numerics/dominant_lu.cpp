@@ -11,7 +11,9 @@
 namespace lastflat {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+std::size_t at(Index i) {
+    return static_cast<std::size_t>(i);
+}
 
 /// Visits the columns i < k that row k of L reaches in the elimination tree, descendants first.
 /// `marks` holds, per column, the last row that visited it.
@@ -93,8 +95,10 @@ void DominantLu::factor(const SparseMatrix& lower, const SparseMatrix& upper) {
     for (Index k = 0; k < static_cast<Index>(n); ++k) {
         Index count = 0;
         const Index* row = reach.find(upper, k, count);
-        for (SparseMatrix::InnerIterator entry(upper, k); entry; ++entry) y[at(entry.index())] = entry.value();
-        for (SparseMatrix::InnerIterator entry(lower, k); entry; ++entry) z[at(entry.index())] = entry.value();
+        for (SparseMatrix::InnerIterator entry(upper, k); entry; ++entry)
+            y[at(entry.index())] = entry.value();
+        for (SparseMatrix::InnerIterator entry(lower, k); entry; ++entry)
+            z[at(entry.index())] = entry.value();
         double pivot = y[at(k)];
         y[at(k)] = z[at(k)] = 0.0;
         for (Index j = 0; j < count; ++j) {
@@ -122,11 +126,13 @@ Eigen::MatrixXd DominantLu::solve(const Eigen::MatrixXd& right_hand_side) const 
     for (Eigen::Index column = 0; column < x.cols(); ++column) {
         double* v = x.col(column).data();
         for (Index i = 0; i < n; ++i) {
-            for (std::size_t p = begin_[at(i)]; p < begin_[at(i) + 1]; ++p) v[rows_[p]] -= L_[p] * v[i];
+            for (std::size_t p = begin_[at(i)]; p < begin_[at(i) + 1]; ++p)
+                v[rows_[p]] -= L_[p] * v[i];
         }
         for (Index i = n; i-- > 0;) {
             double sum = v[i] / D_[at(i)];
-            for (std::size_t p = begin_[at(i)]; p < begin_[at(i) + 1]; ++p) sum -= U_[p] * v[rows_[p]];
+            for (std::size_t p = begin_[at(i)]; p < begin_[at(i) + 1]; ++p)
+                sum -= U_[p] * v[rows_[p]];
             v[i] = sum;
         }
     }

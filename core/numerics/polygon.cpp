@@ -56,14 +56,15 @@ bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
 
 std::vector<Crossing> self_crossings(const Points2& polygon) {
     const auto n = static_cast<Index>(polygon.size());
-    const auto at = [&](Index i) -> const Vec2& { return polygon[static_cast<std::size_t>(i % n)]; };
+    const auto at = [&](Index i) -> const Vec2& {
+        return polygon[static_cast<std::size_t>(i % n)];
+    };
     const auto left = [&](Index i) { return std::min(at(i).x(), at(i + 1).x()); };
     const auto right = [&](Index i) { return std::max(at(i).x(), at(i + 1).x()); };
     std::vector<Index> order(polygon.size());
     std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](Index i, Index j) {
-        return left(i) != left(j) ? left(i) < left(j) : i < j;
-    });
+    std::sort(order.begin(), order.end(),
+              [&](Index i, Index j) { return left(i) != left(j) ? left(i) < left(j) : i < j; });
     std::vector<Crossing> crossings;
     for (std::size_t i = 0; i < order.size(); ++i) {
         for (std::size_t j = i + 1; j < order.size() && left(order[j]) <= right(order[i]); ++j) {

@@ -1,9 +1,8 @@
 // Closed-form singular value decomposition of 2x2 matrices.
 #pragma once
 
-#include <cmath>
-
 #include <Eigen/Core>
+#include <cmath>
 
 namespace lastflat {
 
@@ -15,7 +14,8 @@ struct Svd2 {
 };
 
 /// Splits F into a similarity (e, h) and an anti-similarity (f, g); their lengths are the mean and
-/// half the difference of the singular values, their angles the sum and difference of the rotations.
+/// half the difference of the singular values, their angles the sum and difference of the
+/// rotations.
 [[nodiscard]] inline Svd2 svd2(const Eigen::Matrix2d& matrix) {
     const double e = 0.5 * (matrix(0, 0) + matrix(1, 1));
     const double f = 0.5 * (matrix(0, 0) - matrix(1, 1));

@@ -21,7 +21,9 @@ struct QuasiDefiniteSolver::Factor {
 QuasiDefiniteSolver::QuasiDefiniteSolver() : factor_(std::make_unique<Factor>()) {}
 QuasiDefiniteSolver::~QuasiDefiniteSolver() = default;
 
-void QuasiDefiniteSolver::analyse(const SparseMatrix& lower) { factor_->ldlt.analyzePattern(lower); }
+void QuasiDefiniteSolver::analyse(const SparseMatrix& lower) {
+    factor_->ldlt.analyzePattern(lower);
+}
 
 bool QuasiDefiniteSolver::factor(const SparseMatrix& lower) {
     factor_->ldlt.factorize(lower);

@@ -1,9 +1,9 @@
-// Points, indices and sparse matrices: the words every stage shares. Lengths are mm, angles radians.
+// Points, indices and sparse matrices: the words every stage shares. Lengths are mm, angles
+// radians.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-
 #include <array>
 #include <cstdint>
 #include <vector>

@@ -16,7 +16,8 @@ std::vector<Index> flipped_triangles(const Region& region, const Points2& uv) {
     std::vector<Index> flipped;
     for (std::size_t t = 0; t < region.triangles.size(); ++t) {
         // Negated, so that a point that is not a number counts as a flip.
-        if (!(doubled_area_of(region.triangles[t], uv) > 0.0)) flipped.push_back(static_cast<Index>(t));
+        if (!(doubled_area_of(region.triangles[t], uv) > 0.0))
+            flipped.push_back(static_cast<Index>(t));
     }
     return flipped;
 }

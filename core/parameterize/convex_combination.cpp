@@ -58,8 +58,8 @@ std::vector<WeightedNeighbour> mean_value_weights(const Star& star) {
     }
     std::vector<WeightedNeighbour> weights;
     for (std::size_t j = 0; j < n; ++j) {
-        weights.push_back({star.neighbours[j],
-                           (half_tangents[(j + n - 1) % n] + half_tangents[j]) / star.distances[j]});
+        weights.push_back({star.neighbours[j], (half_tangents[(j + n - 1) % n] + half_tangents[j]) /
+                                                   star.distances[j]});
     }
     return weights;
 }

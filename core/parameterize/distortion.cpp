@@ -29,7 +29,9 @@ Eigen::Matrix2d rest_edges(const Region& region, const Triangle& t) {
     return edges;
 }
 
-Vec2 point(const Eigen::VectorXd& x, Index vertex) { return x.segment<2>(2 * vertex); }
+Vec2 point(const Eigen::VectorXd& x, Index vertex) {
+    return x.segment<2>(2 * vertex);
+}
 
 double smallest_positive_root(double a, double b, double c) {
     // a t^2 + b t + c = 0 with c > 0, by the formula that does not cancel.
@@ -169,7 +171,8 @@ Eigen::VectorXd Distortion::differentiate(const Eigen::VectorXd& x, HessianKind 
     double* values = matrix.valuePtr();
     for (std::size_t e = 0; e < elements_.size(); ++e) {
         const Element& element = elements_[e];
-        const auto d = element_derivatives(gradient_of(element, x), element.rest_inverse, energy_, kind);
+        const auto d =
+            element_derivatives(gradient_of(element, x), element.rest_inverse, energy_, kind);
         for (Eigen::Index i = 0; i < 3; ++i) {
             gradient.segment<2>(2 * element.vertices[static_cast<std::size_t>(i)]) +=
                 element.area * d.gradient.segment<2>(2 * i);

@@ -20,7 +20,8 @@ std::string border_edge_name(const Region& region, std::size_t i) {
     for (const CurveRun& run : region.runs) {
         for (std::size_t k = 1; k < run.vertices.size(); ++k) {
             const Index p = run.vertices[k - 1], q = run.vertices[k];
-            if ((p == a && q == b) || (p == b && q == a)) return "curve '" + run.curve + "', " + where;
+            if ((p == a && q == b) || (p == b && q == a))
+                return "curve '" + run.curve + "', " + where;
         }
     }
     return "the border " + where;
@@ -57,11 +58,11 @@ Chart flatten_geodesic_fan(const Region& region, const std::vector<bool>& locked
     const OneRings rings(region);
     const BorderAngles angles = border_angles(region, rings, rule);
     const auto lengths = border_lengths(region);
-    const Points2 polygon =
-        tweak_edges(lengths, angles.turning, locked,
-                    [&](std::size_t edge) { return border_edge_name(region, edge); });
-    const double mean_edge = std::accumulate(lengths.begin(), lengths.end(), 0.0) /
-                             static_cast<double>(lengths.size());
+    const Points2 polygon = tweak_edges(lengths, angles.turning, locked, [&](std::size_t edge) {
+        return border_edge_name(region, edge);
+    });
+    const double mean_edge =
+        std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
     const Points2 partners = virtual_layer(hull_border(polygon), mean_edge);
 
     WeightRows rows(region.positions.size() + partners.size());

@@ -27,7 +27,8 @@ Start isometric_start(const Region& region, const std::vector<bool>& locked, Ang
     start.chart = flatten_mean_value(region, circle_border(region));
     const auto flipped = flipped_triangles(region, start.chart.uv);
     if (!flipped.empty()) {
-        const Vec3& where = region.position(region.triangles[static_cast<std::size_t>(flipped.front())][0]);
+        const Vec3& where =
+            region.position(region.triangles[static_cast<std::size_t>(flipped.front())][0]);
         throw Error(ErrorCode::method_failed,
                     "region '" + region.name + "' has no start without folds: the geodesic fan (" +
                         why + ") and mean values on a circle (" + std::to_string(flipped.size()) +
@@ -36,8 +37,11 @@ Start isometric_start(const Region& region, const std::vector<bool>& locked, Ang
             .at_position(where);
     }
     start.warnings.push_back({"start_replaced",
-                              "region '" + region.name + "' starts from a circle, not from the "
-                              "geodesic fan: " + why, std::nullopt});
+                              "region '" + region.name +
+                                  "' starts from a circle, not from the "
+                                  "geodesic fan: " +
+                                  why,
+                              std::nullopt});
     return start;
 }
 
@@ -49,7 +53,8 @@ Start start_chart(const Region& region, const std::vector<bool>& locked_border,
         case MethodName::mean_value:
             return {flatten_mean_value(region, method.border == BorderShape::circle
                                                    ? circle_border(region)
-                                                   : square_border(region)), {}};
+                                                   : square_border(region)),
+                    {}};
         case MethodName::geodesic_fan:
             return {flatten_geodesic_fan(region, locked_border, method.angles), {}};
         case MethodName::isometric: return isometric_start(region, locked_border, method.angles);

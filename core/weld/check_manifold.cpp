@@ -10,10 +10,10 @@ namespace {
 
 /// One side of a triangle, filed under its edge.
 struct Side {
-    Index low, high;   ///< the edge's vertices
+    Index low, high;  ///< the edge's vertices
     Index triangle;
-    Index corner;      ///< the corner where the side begins
-    bool forward;      ///< runs from low to high
+    Index corner;  ///< the corner where the side begins
+    bool forward;  ///< runs from low to high
 
     [[nodiscard]] bool same_edge(const Side& other) const {
         return low == other.low && high == other.high;
@@ -42,7 +42,9 @@ std::vector<Side> sides_by_edge(const std::vector<Triangle>& triangles) {
     throw Error(code, what + " at " + place(position)).at_position(position);
 }
 
-Index corner_id(const Side& side, Index offset) { return 3 * side.triangle + (side.corner + offset) % 3; }
+Index corner_id(const Side& side, Index offset) {
+    return 3 * side.triangle + (side.corner + offset) % 3;
+}
 
 /// Joins the corners that two neighbouring triangles have at both ends of their common edge.
 void join_corners(DisjointSets& fans, const Side& a, const Side& b) {
@@ -50,7 +52,8 @@ void join_corners(DisjointSets& fans, const Side& a, const Side& b) {
     fans.join(corner_id(a, 1), corner_id(b, 0));
 }
 
-void check_fans(const Points3& positions, const std::vector<Triangle>& triangles, DisjointSets& fans) {
+void check_fans(const Points3& positions, const std::vector<Triangle>& triangles,
+                DisjointSets& fans) {
     std::vector<Index> fan_of(positions.size(), -1);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -60,7 +63,8 @@ void check_fans(const Points3& positions, const std::vector<Triangle>& triangles
             if (fan_of[vertex] == fan) continue;
             fail(ErrorCode::mesh_not_manifold,
                  "vertex " + std::to_string(vertex) +
-                     " joins parts of the surface that share nothing else,", positions[vertex]);
+                     " joins parts of the surface that share nothing else,",
+                 positions[vertex]);
         }
     }
 }
@@ -95,7 +99,8 @@ bool is_closed(const std::vector<Triangle>& triangles) {
     const auto sides = sides_by_edge(triangles);
     if (sides.size() % 2 != 0) return false;
     for (std::size_t i = 0; i < sides.size(); i += 2) {
-        if (!sides[i].same_edge(sides[i + 1]) || sides[i].forward == sides[i + 1].forward) return false;
+        if (!sides[i].same_edge(sides[i + 1]) || sides[i].forward == sides[i + 1].forward)
+            return false;
         if (i + 2 < sides.size() && sides[i].same_edge(sides[i + 2])) return false;
     }
     return true;

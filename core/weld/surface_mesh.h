@@ -31,7 +31,8 @@ struct SurfaceMesh {
     /// Whether the id exists and a selected face uses it.
     [[nodiscard]] bool is_on_surface(Index vertex) const {
         return vertex >= 0 && vertex < static_cast<Index>(welded_to.size()) &&
-               !mesh.is_isolated(OpenMesh::VertexHandle(welded_to[static_cast<std::size_t>(vertex)]));
+               !mesh.is_isolated(
+                   OpenMesh::VertexHandle(welded_to[static_cast<std::size_t>(vertex)]));
     }
 };
 

@@ -25,7 +25,8 @@ std::string known_groups(const RawMesh& raw) {
     return text;
 }
 
-std::vector<Triangle> selected_triangles(const RawMesh& raw, const std::vector<std::string>& groups) {
+std::vector<Triangle> selected_triangles(const RawMesh& raw,
+                                         const std::vector<std::string>& groups) {
     if (groups.empty()) return raw.triangles;
     std::vector<bool> wanted(raw.label_sets.size(), false);
     for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -63,23 +64,27 @@ void drop_collapsed(std::vector<Triangle>& triangles, std::vector<Warning>& warn
     const auto dropped = triangles.end() - kept;
     if (dropped == 0) return;
     triangles.erase(kept, triangles.end());
-    warnings.push_back({"faces_dropped",
-                        std::to_string(dropped) + " triangles that name a vertex twice were left out",
-                        std::nullopt});
+    warnings.push_back(
+        {"faces_dropped",
+         std::to_string(dropped) + " triangles that name a vertex twice were left out",
+         std::nullopt});
 }
 
 void check_shapes(const Points3& positions, const std::vector<Triangle>& triangles) {
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-        const auto at = [&](std::size_t i) { return positions[static_cast<std::size_t>(triangles[t][i])]; };
+        const auto at = [&](std::size_t i) {
+            return positions[static_cast<std::size_t>(triangles[t][i])];
+        };
         const double longest =
             std::max({(at(1) - at(0)).norm(), (at(2) - at(1)).norm(), (at(0) - at(2)).norm()});
         const double area = (at(1) - at(0)).cross(at(2) - at(0)).norm();
         // Negated, so that an overflow to NaN is caught as well.
         if (!(area > tolerance::degenerate_height * longest * longest) || !std::isfinite(area)) {
-            throw Error(ErrorCode::mesh_degenerate,
-                        "triangle " + std::to_string(triangles[t][0]) + " " +
-                            std::to_string(triangles[t][1]) + " " + std::to_string(triangles[t][2]) +
-                            " has no area, at " + place(at(0)) + "; remove it or mend the mesh there")
+            throw Error(ErrorCode::mesh_degenerate, "triangle " + std::to_string(triangles[t][0]) +
+                                                        " " + std::to_string(triangles[t][1]) +
+                                                        " " + std::to_string(triangles[t][2]) +
+                                                        " has no area, at " + place(at(0)) +
+                                                        "; remove it or mend the mesh there")
                 .at_position(at(0));
         }
     }
@@ -106,8 +111,9 @@ TriMesh build(const Points3& positions, const std::vector<Triangle>& triangles) 
                                         OpenMesh::VertexHandle(t[2]));
         if (!face.is_valid()) {
             const Vec3& p = positions[static_cast<std::size_t>(t[0])];
-            throw Error(ErrorCode::mesh_not_manifold, "the faces around " + place(p) +
-                                                          " do not form a surface").at_position(p);
+            throw Error(ErrorCode::mesh_not_manifold,
+                        "the faces around " + place(p) + " do not form a surface")
+                .at_position(p);
         }
     }
     return mesh;

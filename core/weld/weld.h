@@ -7,8 +7,8 @@
 namespace lastflat {
 
 struct WeldOptions {
-    std::optional<double> unit_mm;     ///< one unit of the model in mm; default: the format's
-    std::vector<std::string> groups;   ///< faces that carry one of these names; empty: all faces
+    std::optional<double> unit_mm;    ///< one unit of the model in mm; default: the format's
+    std::vector<std::string> groups;  ///< faces that carry one of these names; empty: all faces
     /// Vertices at most this far apart become one. Default: only vertices of one and the same
     /// place, and only in models without indices, so that a slit stays a slit.
     std::optional<double> tolerance_mm;

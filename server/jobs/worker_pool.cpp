@@ -7,7 +7,9 @@ WorkerPool::WorkerPool(JobStore& store, JobRunner runner, std::size_t workers)
     for (std::size_t i = 0; i < workers; ++i) threads_.emplace_back([this] { work(); });
 }
 
-WorkerPool::~WorkerPool() { stop(std::chrono::milliseconds(0)); }
+WorkerPool::~WorkerPool() {
+    stop(std::chrono::milliseconds(0));
+}
 
 void WorkerPool::wake() {
     // Taking the lock orders this after a worker's look at the store, so that no job is missed.

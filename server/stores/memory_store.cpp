@@ -24,7 +24,8 @@ void MemoryStore::drop_input(Row& row) {
 bool MemoryStore::add(const std::string& id, JobInput input) {
     const std::scoped_lock lock(mutex_);
     const std::size_t bytes = input.model->size();
-    if (queue_.size() >= limits_.queued_jobs || input_bytes_ + bytes > limits_.queued_bytes) return false;
+    if (queue_.size() >= limits_.queued_jobs || input_bytes_ + bytes > limits_.queued_bytes)
+        return false;
     Row row;
     row.record.id = id;
     row.record.tag = input.tag;

@@ -83,10 +83,12 @@ TEST_SUITE("api/flatten_request") {
             {R"({"curves": {"heel": {"vertices": [1, -2]}}})", "/curves/heel/vertices/1"},
             {R"({"curves": {"heel": {"vertices": [1, 2.5]}}})", "/curves/heel/vertices/1"},
             {R"({"curves": {"heel": {"vertices": [1, 4294967296]}}})", "/curves/heel/vertices/1"},
-            {R"({"curves": {"heel": {"vertices": [1, 18446744073709551615]}}})", "/curves/heel/vertices/1"},
+            {R"({"curves": {"heel": {"vertices": [1, 18446744073709551615]}}})",
+             "/curves/heel/vertices/1"},
             {R"({"curves": {"heel": {"vertices": [1]}}})", "/curves/heel/vertices"},
             {R"({"curves": {"heel": {}}})", "/curves/heel"},
-            {R"({"curves": {"heel": {"vertices": [1,2], "polyline": [[0,0,0],[1,1,1]]}}})", "/curves/heel"},
+            {R"({"curves": {"heel": {"vertices": [1,2], "polyline": [[0,0,0],[1,1,1]]}}})",
+             "/curves/heel"},
             {R"({"curves": {"heel": {"from": "a"}}})", "/curves/heel"},
             {R"({"curves": {"a/b~c": {"vertices": "x"}}})", "/curves/a~1b~0c/vertices"},
             {R"({"curves": {"": {"vertices": [1,2]}}})", "/curves/"},
@@ -110,41 +112,51 @@ TEST_SUITE("api/flatten_request") {
     }
 
     TEST_CASE("an error lists what there is instead") {
-        CHECK(detail_of(R"({"seem": 1})").find("known here: curves, cuts, layout") != std::string::npos);
+        CHECK(detail_of(R"({"seem": 1})").find("known here: curves, cuts, layout") !=
+              std::string::npos);
         CHECK(detail_of(R"({"units": "feet"})") == "must be one of: mm, cm, m, in");
     }
 
     TEST_CASE("documents that cannot be read are refused, not guessed") {
-        for (const char* text : {"{", "{\"a\": nul}", "{\"tag\": \"\xFF\"}", "{} {}", "{\"tag\": 1e999}", "\xEF\xBB"}) {
+        for (const char* text : {"{", "{\"a\": nul}", "{\"tag\": \"\xFF\"}", "{} {}",
+                                 "{\"tag\": 1e999}", "\xEF\xBB"}) {
             CAPTURE(text);
             CHECK(detail_of(text).find("cannot be read") != std::string::npos);
         }
-        CHECK(detail_of(R"({"tag": "a", "tag": "b"})").find("'tag' stands twice") != std::string::npos);
-        CHECK(detail_of("{\"tag\":" + std::string(100, '[') + std::string(100, ']') + "}").find("deeper") != std::string::npos);
+        CHECK(detail_of(R"({"tag": "a", "tag": "b"})").find("'tag' stands twice") !=
+              std::string::npos);
+        CHECK(detail_of("{\"tag\":" + std::string(100, '[') + std::string(100, ']') + "}")
+                  .find("deeper") != std::string::npos);
     }
 
     TEST_CASE("limits hold") {
         RequestLimits limits;
         limits.curve_vertices = 3;
-        CHECK_THROWS_AS((void)flatten_request_from_json(R"({"curves": {"a": {"vertices": [1,2,3,4]}}})", limits), InvalidRequest);
+        CHECK_THROWS_AS((void)flatten_request_from_json(
+                            R"({"curves": {"a": {"vertices": [1,2,3,4]}}})", limits),
+                        InvalidRequest);
         limits = {};
         limits.bytes = 10;
-        CHECK_THROWS_AS((void)flatten_request_from_json(R"({"tag": "abcdef"})", limits), InvalidRequest);
+        CHECK_THROWS_AS((void)flatten_request_from_json(R"({"tag": "abcdef"})", limits),
+                        InvalidRequest);
     }
 }
 
 TEST_SUITE("api/json_submission") {
     TEST_CASE("the model is decoded and pointers begin at the document") {
-        const auto submission = json_submission_from_json(R"({"model": {"data": "diAwIDAgMA=="}, "request": {"tag": "t"}})");
+        const auto submission = json_submission_from_json(
+            R"({"model": {"data": "diAwIDAgMA=="}, "request": {"tag": "t"}})");
         CHECK(submission.model == "v 0 0 0");
         CHECK(submission.request.tag == "t");
         try {
-            (void)json_submission_from_json(R"({"model": {"data": ""}, "request": {"units": "x"}})");
+            (void)json_submission_from_json(
+                R"({"model": {"data": ""}, "request": {"units": "x"}})");
             FAIL("no error");
         } catch (const InvalidRequest& error) {
             CHECK(error.pointer() == "/request/units");
         }
-        for (const char* text : {R"({})", R"({"model": {}})", R"({"model": {"data": "@"}})", R"({"model": {"data": ""}, "x": 1})"}) {
+        for (const char* text : {R"({})", R"({"model": {}})", R"({"model": {"data": "@"}})",
+                                 R"({"model": {"data": ""}, "x": 1})"}) {
             CHECK_THROWS_AS((void)json_submission_from_json(text), InvalidRequest);
         }
     }

@@ -29,8 +29,9 @@ void check_certificate(const FlattenResult& result) {
 
 TEST_SUITE("core/flatten") {
     TEST_CASE("the sample last comes out whole, in every size and shape") {
-        for (const SampleLastOptions& options : {SampleLastOptions{}, SampleLastOptions{36, 60, 4, -5, ToeShape::pointed},
-                                                 SampleLastOptions{46, 0, 12, 8, ToeShape::square}}) {
+        for (const SampleLastOptions& options :
+             {SampleLastOptions{}, SampleLastOptions{36, 60, 4, -5, ToeShape::pointed},
+              SampleLastOptions{46, 0, 12, 8, ToeShape::square}}) {
             const SampleLast last = make_sample_last(options);
             const FlattenResult result = test::flatten_sample(last, test::sample_options(last));
             REQUIRE(result.regions.size() == 2);
@@ -48,7 +49,8 @@ TEST_SUITE("core/flatten") {
         const FlattenResult one = test::flatten_sample(last, options);
         options.threads = 2;
         const FlattenResult two = test::flatten_sample(last, options);
-        for (std::size_t r = 0; r < 2; ++r) CHECK(one.regions[r].chart.uv == two.regions[r].chart.uv);
+        for (std::size_t r = 0; r < 2; ++r)
+            CHECK(one.regions[r].chart.uv == two.regions[r].chart.uv);
     }
 
     TEST_CASE("a last in another place and unit gives the same pattern") {
@@ -61,7 +63,9 @@ TEST_SUITE("core/flatten") {
         for (std::size_t r = 0; r < 2; ++r) {
             double largest = 0;
             for (std::size_t v = 0; v < expected.regions[r].chart.uv.size(); ++v) {
-                largest = std::max(largest, (expected.regions[r].chart.uv[v] - found.regions[r].chart.uv[v]).norm());
+                largest = std::max(
+                    largest,
+                    (expected.regions[r].chart.uv[v] - found.regions[r].chart.uv[v]).norm());
             }
             CHECK(largest < 1e-6);
         }
@@ -88,8 +92,8 @@ TEST_SUITE("core/flatten") {
     }
 
     TEST_CASE("a start that fails is replaced, and a warning says so") {
-        // Every border edge locked: the fan's polygon cannot close. On a developable patch the locks
-        // can hold all the same, so the circle must lead there.
+        // Every border edge locked: the fan's polygon cannot close. On a developable patch the
+        // locks can hold all the same, so the circle must lead there.
         const Region region = test::cylinder(8);
         const std::vector<bool> all(region.border.size(), true);
         const Start start = start_chart(region, all, {});
@@ -98,7 +102,8 @@ TEST_SUITE("core/flatten") {
         CHECK(flipped_triangles(region, start.chart.uv).empty());
         const std::vector<Lock> locks{{"bottom"}, {"right"}, {"top"}, {"left"}};
         Progress progress;
-        const Minimum minimum = minimise_distortion(region, start.chart, length_constraints(region, locks), SymmetricDirichlet(), progress);
+        const Minimum minimum = minimise_distortion(
+            region, start.chart, length_constraints(region, locks), SymmetricDirichlet(), progress);
         CHECK(minimum.energy == doctest::Approx(1.0).epsilon(1e-10));
     }
 

@@ -36,7 +36,8 @@ std::string bytes_of(const fs::path& path) {
 }
 
 FlattenResult flatten_last(const std::string& name, std::size_t threads = 2) {
-    auto options = server::to_options(api::flatten_request_from_json(bytes_of(folder() / (name + ".request.json"))));
+    auto options = server::to_options(
+        api::flatten_request_from_json(bytes_of(folder() / (name + ".request.json"))));
     options.threads = threads;
     Progress progress;
     return flatten(bytes_of(folder() / (name + ".obj")), options, progress);
@@ -48,13 +49,16 @@ struct Optimum {
     const char* name;
     double dirichlet, l2_normalised, linf;
 };
-constexpr Optimum lateral[] = {{"donna_t30_size38", 1.000575, 1.000424, 1.0764}, {"uomo_t10_size42", 1.000537, 1.000395, 1.0725}};
-constexpr Optimum medial[] = {{"donna_t30_size38", 1.000831, 1.000613, 1.0850}, {"uomo_t10_size42", 1.000552, 1.000408, 1.0699}};
+constexpr Optimum lateral[] = {{"donna_t30_size38", 1.000575, 1.000424, 1.0764},
+                               {"uomo_t10_size42", 1.000537, 1.000395, 1.0725}};
+constexpr Optimum medial[] = {{"donna_t30_size38", 1.000831, 1.000613, 1.0850},
+                              {"uomo_t10_size42", 1.000552, 1.000408, 1.0699}};
 
 void check_optimum(const FlatRegion& flat, const Optimum& best) {
     CAPTURE(best.name);
     CAPTURE(flat.region.name);
-    CHECK(std::abs(flat.metrics.symmetric_dirichlet - best.dirichlet) < 0.0000015);  // its last digit
+    CHECK(std::abs(flat.metrics.symmetric_dirichlet - best.dirichlet) <
+          0.0000015);  // its last digit
     CHECK(std::abs(flat.metrics.stretch_l2_normalised - best.l2_normalised) < 0.0000015);
     CHECK(std::abs(flat.metrics.stretch_linf - best.linf) < 0.0002);
     CHECK(flat.metrics.flipped_triangles == 0);
@@ -70,8 +74,12 @@ TEST_SUITE("core/real_lasts") {
     TEST_CASE("halves reach the best known optimum with every locked edge exact") {
         if (skipped()) return;
         for (std::size_t i = 0; i < 2; ++i) {
-            check_optimum(flatten_last(std::string(lateral[i].name) + "_upper_lateral_half").regions[0], lateral[i]);
-            check_optimum(flatten_last(std::string(medial[i].name) + "_upper_medial_half").regions[0], medial[i]);
+            check_optimum(
+                flatten_last(std::string(lateral[i].name) + "_upper_lateral_half").regions[0],
+                lateral[i]);
+            check_optimum(
+                flatten_last(std::string(medial[i].name) + "_upper_medial_half").regions[0],
+                medial[i]);
         }
     }
 
@@ -90,12 +98,15 @@ TEST_SUITE("core/real_lasts") {
     TEST_CASE("the slit of an upper stays a slit") {
         if (skipped()) return;
         Progress progress;
-        const FlattenResult result = flatten(bytes_of(folder() / "uomo_t10_size42_upper_disk_10k.obj"), {}, progress);
+        const FlattenResult result =
+            flatten(bytes_of(folder() / "uomo_t10_size42_upper_disk_10k.obj"), {}, progress);
         REQUIRE(result.regions.size() == 1);
         CHECK(result.regions[0].metrics.flipped_triangles == 0);
         FlattenOptions welded;
         welded.weld.tolerance_mm = 0.0;
-        CHECK_THROWS_AS((void)flatten(bytes_of(folder() / "uomo_t10_size42_upper_disk_10k.obj"), welded, progress), Error);
+        CHECK_THROWS_AS((void)flatten(bytes_of(folder() / "uomo_t10_size42_upper_disk_10k.obj"),
+                                      welded, progress),
+                        Error);
     }
 }
 

@@ -187,13 +187,15 @@ is_taken() { ! curl -s --max-time 0.3 "$url$job" -o "$BATS_TEST_TMPDIR/taken"; }
     run ! curl -sS "$url/healthz"
 }
 
-@test "SIGTERM gives a running job its grace" {
+@test "SIGTERM lets a running job end within its grace, and ends with 0" {
     start_server --workers 1 --grace 60
     post "$BATS_FILE_TMPDIR/second.obj"
     wait_until 20 is_in_state "$job" running
     begun=$(milliseconds)
     kill -TERM "$server"
     wait_until 60 has_ended "$server"
-    echo "# ended after $(( $(milliseconds) - begun )) ms" >&3
+    taken=$(( $(milliseconds) - begun ))
+    echo "# ended after $taken ms" >&3
+    (( taken > 500 ))  # the job takes seconds; cut short, it ends at once
     run -0 wait "$server"
 }

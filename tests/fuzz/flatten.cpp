@@ -19,7 +19,8 @@ FlattenOptions options_of(std::uint8_t choice) {
     const MethodName methods[] = {MethodName::isometric, MethodName::isometric,
                                   MethodName::geodesic_fan, MethodName::mean_value};
     options.method.name = methods[choice % 4];
-    options.method.angles = (choice & 4) != 0 ? AngleRule::averaged_conformal : AngleRule::curvature;
+    options.method.angles =
+        (choice & 4) != 0 ? AngleRule::averaged_conformal : AngleRule::curvature;
     options.method.border = (choice & 4) != 0 ? BorderShape::square : BorderShape::circle;
     const int path = choice >> 4;  // edges of the curve; it is cut and locked
     if (path > 0) {

@@ -8,7 +8,9 @@ namespace {
 using namespace lastflat;
 using namespace lastflat::http;
 
-Response nothing(const Request&) { return {}; }
+Response nothing(const Request&) {
+    return {};
+}
 
 const RouteTable& routes() {
     static const RouteTable table({{"GET", "/healthz", nothing, false, true},

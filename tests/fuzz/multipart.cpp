@@ -1,5 +1,6 @@
 // The first line is the Content-Type, the rest the body.
 #include "server/http/multipart.h"
+
 #include "server/http/refusal.h"
 #include "server/http/text.h"
 #include "tests/fuzz/mesh_checks.h"

@@ -18,7 +18,8 @@ inline Region grid(int columns, int rows, const std::function<Vec3(double, doubl
     const auto id = [&](int i, int j) { return static_cast<Index>(j * (columns + 1) + i); };
     for (int j = 0; j <= rows; ++j) {
         for (int i = 0; i <= columns; ++i) {
-            region.positions.push_back(shape(static_cast<double>(i) / columns, static_cast<double>(j) / rows));
+            region.positions.push_back(
+                shape(static_cast<double>(i) / columns, static_cast<double>(j) / rows));
             region.source_vertices.push_back(id(i, j));
         }
     }
@@ -50,7 +51,8 @@ inline Region grid(int columns, int rows, const std::function<Vec3(double, doubl
 /// A plane whose grid is uneven, so that weights differ from vertex to vertex.
 inline Region plane(int n = 8) {
     return grid(n, n, [](double s, double t) {
-        return Vec3(90 * s + 9 * std::sin(3 * t) * s * (1 - s), 60 * t + 8 * std::sin(4 * s) * t * (1 - t), 0);
+        return Vec3(90 * s + 9 * std::sin(3 * t) * s * (1 - s),
+                    60 * t + 8 * std::sin(4 * s) * t * (1 - t), 0);
     });
 }
 
@@ -66,7 +68,8 @@ inline Region cylinder(int n = 12) {
 inline Region cone(int n = 12) {
     return grid(n, n, [](double s, double t) {
         const double r = 50 + 60 * t, half = 0.4, turn = 1.2 * s / std::sin(half);
-        return Vec3(r * std::sin(half) * std::cos(turn), r * std::sin(half) * std::sin(turn), -r * std::cos(half));
+        return Vec3(r * std::sin(half) * std::cos(turn), r * std::sin(half) * std::sin(turn),
+                    -r * std::cos(half));
     });
 }
 
@@ -74,7 +77,8 @@ inline Region cone(int n = 12) {
 inline Region dome(int n = 12, double angle = 0.6) {
     return grid(n, n, [angle](double s, double t) {
         const double a = angle * (2 * s - 1), b = angle * (2 * t - 1);
-        return Vec3(60 * std::sin(a), 60 * std::cos(a) * std::sin(b), 60 * std::cos(a) * std::cos(b));
+        return Vec3(60 * std::sin(a), 60 * std::cos(a) * std::sin(b),
+                    60 * std::cos(a) * std::cos(b));
     });
 }
 
@@ -115,7 +119,8 @@ inline double worst_edge_change(const Region& region, const Points2& uv) {
     for (const Triangle& t : region.triangles) {
         for (std::size_t i = 0; i < 3; ++i) {
             const Index a = t[i], b = t[(i + 1) % 3];
-            const double flat = (uv[static_cast<std::size_t>(a)] - uv[static_cast<std::size_t>(b)]).norm();
+            const double flat =
+                (uv[static_cast<std::size_t>(a)] - uv[static_cast<std::size_t>(b)]).norm();
             worst = std::max(worst, std::abs(flat / region.distance(a, b) - 1));
         }
     }

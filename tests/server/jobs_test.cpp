@@ -47,7 +47,8 @@ TEST_SUITE("server/jobs/job") {
         for (int i = 0; i < 1000; ++i) ids.insert(new_job_id());
         CHECK(ids.size() == 1000);
         CHECK(ids.begin()->size() == 26);
-        CHECK(ids.begin()->find_first_not_of("0123456789ABCDEFGHJKMNPQRSTVWXYZ") == std::string::npos);
+        CHECK(ids.begin()->find_first_not_of("0123456789ABCDEFGHJKMNPQRSTVWXYZ") ==
+              std::string::npos);
     }
 }
 
@@ -125,8 +126,8 @@ TEST_SUITE("server/stores/memory_store") {
             (void)store.claim();
             store.finish(id, {output(40), {}});
         }
-        CHECK_FALSE(store.find("A").has_value());       // forgotten: more than three finished
-        CHECK_FALSE(store.find("B")->output);           // expired: more than 100 bytes
+        CHECK_FALSE(store.find("A").has_value());  // forgotten: more than three finished
+        CHECK_FALSE(store.find("B")->output);      // expired: more than 100 bytes
         CHECK(store.find("B")->state == JobState::succeeded);
         CHECK(store.find("D")->output);
     }
@@ -136,29 +137,36 @@ TEST_SUITE("server/jobs/worker_pool") {
     TEST_CASE("every job that is added is run once") {
         MemoryStore store({});
         std::atomic<int> runs{0};
-        WorkerPool pool(store, [&](const JobInput&, Progress&) {
-            ++runs;
-            return JobOutcome{output(), {}};
-        }, 4);
+        WorkerPool pool(
+            store,
+            [&](const JobInput&, Progress&) {
+                ++runs;
+                return JobOutcome{output(), {}};
+            },
+            4);
         for (int i = 0; i < 200; ++i) {
             REQUIRE(store.add("J" + std::to_string(i), input()));
             pool.wake();
         }
-        for (int i = 0; i < 200; ++i) CHECK(finished(store, "J" + std::to_string(i)).state == JobState::succeeded);
+        for (int i = 0; i < 200; ++i)
+            CHECK(finished(store, "J" + std::to_string(i)).state == JobState::succeeded);
         CHECK(runs == 200);
     }
 
     TEST_CASE("a running job is cancelled through its progress") {
         MemoryStore store({});
         std::latch started(1);
-        WorkerPool pool(store, [&](const JobInput&, Progress& progress) -> JobOutcome {
-            started.count_down();
-            try {
-                for (;;) progress.check();
-            } catch (const Error&) {
-                return {};
-            }
-        }, 1);
+        WorkerPool pool(
+            store,
+            [&](const JobInput&, Progress& progress) -> JobOutcome {
+                started.count_down();
+                try {
+                    for (;;) progress.check();
+                } catch (const Error&) {
+                    return {};
+                }
+            },
+            1);
         REQUIRE(store.add("A", input()));
         pool.wake();
         started.wait();
@@ -172,22 +180,26 @@ TEST_SUITE("server/jobs/worker_pool") {
             MemoryStore store({});
             std::latch started(1);
             std::atomic<bool> release{false};
-            WorkerPool pool(store, [&](const JobInput&, Progress& progress) -> JobOutcome {
-                started.count_down();
-                try {
-                    while (!release) progress.check();
-                } catch (const Error&) {
-                    return {};
-                }
-                return {output(), {}};
-            }, 1);
+            WorkerPool pool(
+                store,
+                [&](const JobInput&, Progress& progress) -> JobOutcome {
+                    started.count_down();
+                    try {
+                        while (!release) progress.check();
+                    } catch (const Error&) {
+                        return {};
+                    }
+                    return {output(), {}};
+                },
+                1);
             REQUIRE(store.add("A", input()));
             REQUIRE(store.add("B", input()));
             pool.wake();
             started.wait();
             release = patient;
             pool.stop(std::chrono::milliseconds(patient ? 60'000 : 0));
-            CHECK(finished(store, "A").state == (patient ? JobState::succeeded : JobState::canceled));
+            CHECK(finished(store, "A").state ==
+                  (patient ? JobState::succeeded : JobState::canceled));
             CHECK(store.find("B")->state == JobState::queued);
         }
     }

@@ -29,7 +29,9 @@ TEST_SUITE("server/result_format") {
     }
 
     TEST_CASE("a type that there is not is refused with the list") {
-        for (const auto& [accept, query, status] : {std::tuple("text/html", "", 406), std::tuple("", "dxf", 400), std::tuple("image/svg+xml;q=0", "", 406)}) {
+        for (const auto& [accept, query, status] :
+             {std::tuple("text/html", "", 406), std::tuple("", "dxf", 400),
+              std::tuple("image/svg+xml;q=0", "", 406)}) {
             try {
                 (void)format_for(accept, query);
                 FAIL("no error");

@@ -12,15 +12,19 @@ namespace {
 
 using std::numbers::pi;
 
-double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+double sum(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
 
 /// The exterior angles of a flat border.
 std::vector<double> flat_turning(const Region& region) {
     std::vector<double> turning;
     const std::size_t n = region.border.size();
     for (std::size_t i = 0; i < n; ++i) {
-        const Vec3 a = region.position(region.border[i]) - region.position(region.border[(i + n - 1) % n]);
-        const Vec3 b = region.position(region.border[(i + 1) % n]) - region.position(region.border[i]);
+        const Vec3 a =
+            region.position(region.border[i]) - region.position(region.border[(i + n - 1) % n]);
+        const Vec3 b =
+            region.position(region.border[(i + 1) % n]) - region.position(region.border[i]);
         turning.push_back(std::atan2(a.x() * b.y() - a.y() * b.x(), a.x() * b.x() + a.y() * b.y()));
     }
     return turning;
@@ -35,7 +39,8 @@ TEST_SUITE("core/border/border_angles") {
             const auto angles = border_angles(region, OneRings(region), rule);
             CHECK(sum(angles.turning) == doctest::Approx(2 * pi).epsilon(1e-12));
             for (std::size_t i = 0; i < angles.turning.size(); ++i) {
-                CHECK(sum(angles.corners[i]) == doctest::Approx(pi - angles.turning[i]).epsilon(1e-12));
+                CHECK(sum(angles.corners[i]) ==
+                      doctest::Approx(pi - angles.turning[i]).epsilon(1e-12));
             }
         }
     }
@@ -72,7 +77,8 @@ TEST_SUITE("core/border/border_angles") {
         region.positions.emplace_back(0, 0, 0.7);
         for (int i = 0; i < 6; ++i) {
             region.positions.emplace_back(std::cos(i * pi / 3), std::sin(i * pi / 3), 0.0);
-            region.triangles.push_back({0, static_cast<Index>(1 + i), static_cast<Index>(1 + (i + 1) % 6)});
+            region.triangles.push_back(
+                {0, static_cast<Index>(1 + i), static_cast<Index>(1 + (i + 1) % 6)});
         }
         region.border = checked_border(region);
         const auto angles = border_angles(region, OneRings(region), AngleRule::averaged_conformal);

@@ -10,7 +10,8 @@ namespace {
 
 double perimeter(const Points2& polygon) {
     double sum = 0;
-    for (std::size_t i = 0; i < polygon.size(); ++i) sum += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        sum += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
     return sum;
 }
 
@@ -19,7 +20,8 @@ double least_turn(const Points2& polygon) {
     double least = 1e300;
     const std::size_t n = polygon.size();
     for (std::size_t i = 0; i < n; ++i) {
-        least = std::min(least, doubled_area(polygon[i], polygon[(i + 1) % n], polygon[(i + 2) % n]));
+        least =
+            std::min(least, doubled_area(polygon[i], polygon[(i + 1) % n], polygon[(i + 2) % n]));
     }
     return least;
 }
@@ -37,7 +39,8 @@ TEST_SUITE("core/border/convex_border") {
     }
 
     TEST_CASE("a square puts its corners at the sharp corners of the region") {
-        const Region region = test::grid(10, 10, [](double s, double t) { return Vec3(50 * s, 50 * t, 0); });
+        const Region region =
+            test::grid(10, 10, [](double s, double t) { return Vec3(50 * s, 50 * t, 0); });
         const Points2 square = square_border(region);
         CHECK(signed_area(square) == doctest::Approx(2500.0).epsilon(1e-12));
         for (std::size_t i = 0; i < square.size(); ++i) {

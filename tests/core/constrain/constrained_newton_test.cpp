@@ -38,7 +38,8 @@ TEST_SUITE("core/constrain/constrained_newton") {
     TEST_CASE("a flat region keeps its shape") {
         const Region region = test::plane(10);
         CHECK(test::rigid_difference(flattened(region).chart.uv, shadow(region)) < 1e-8);
-        CHECK(test::rigid_difference(flattened_from_circle(region).chart.uv, shadow(region)) < 1e-8);
+        CHECK(test::rigid_difference(flattened_from_circle(region).chart.uv, shadow(region)) <
+              1e-8);
     }
 
     TEST_CASE("developable patches come out without distortion") {
@@ -61,7 +62,8 @@ TEST_SUITE("core/constrain/constrained_newton") {
             for (const auto& constraint : length_constraints(region, {{"bottom"}, {"top"}})) {
                 const auto [a, b] = constraint.edges.front();
                 const double flat = (minimum.chart.uv[static_cast<std::size_t>(a)] -
-                                     minimum.chart.uv[static_cast<std::size_t>(b)]).norm();
+                                     minimum.chart.uv[static_cast<std::size_t>(b)])
+                                        .norm();
                 CHECK(std::abs(flat / region.distance(a, b) - 1) < 1e-10);
             }
             CHECK(flipped_triangles(region, minimum.chart.uv).empty());
@@ -70,8 +72,8 @@ TEST_SUITE("core/constrain/constrained_newton") {
 
     TEST_CASE("a total lock keeps the sum and costs less than locking every edge") {
         const Region region = test::saddle();
-        const Minimum edges = flattened(region, {{"left"}}), total = flattened(region, {{"left", Keep::total}}),
-                      free = flattened(region);
+        const Minimum edges = flattened(region, {{"left"}}),
+                      total = flattened(region, {{"left", Keep::total}}), free = flattened(region);
         const auto report = measure_curves(region, total.chart.uv, {{"left", Keep::total}});
         CHECK(std::abs(report[3].error_mm) < 1e-9);
         CHECK(free.energy < total.energy);
@@ -80,8 +82,10 @@ TEST_SUITE("core/constrain/constrained_newton") {
 
     TEST_CASE("the same minimum is reached from a circle and from the fan") {
         for (const Region& region : {test::dome(), test::saddle()}) {
-            for (const std::vector<Lock>& locks : {std::vector<Lock>{}, std::vector<Lock>{{"left"}, {"top"}}}) {
-                const Minimum a = flattened(region, locks), b = flattened_from_circle(region, locks);
+            for (const std::vector<Lock>& locks :
+                 {std::vector<Lock>{}, std::vector<Lock>{{"left"}, {"top"}}}) {
+                const Minimum a = flattened(region, locks),
+                              b = flattened_from_circle(region, locks);
                 CHECK(a.energy == doctest::Approx(b.energy).epsilon(1e-10));
                 CHECK(test::rigid_difference(a.chart.uv, b.chart.uv) < 1e-5);
             }
@@ -113,7 +117,8 @@ TEST_SUITE("core/constrain/constrained_newton") {
         const Points2 expected = flattened(region, locks).chart.uv;
 
         Region moved = region;
-        const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.0, Vec3(1, -1, 3).normalized()).toRotationMatrix();
+        const Eigen::Matrix3d turn =
+            Eigen::AngleAxisd(2.0, Vec3(1, -1, 3).normalized()).toRotationMatrix();
         for (Vec3& p : moved.positions) p = turn * p + Vec3(-30, 400, 12);
         CHECK(test::rigid_difference(expected, flattened(moved, locks).chart.uv) < 1e-7);
 
@@ -125,7 +130,8 @@ TEST_SUITE("core/constrain/constrained_newton") {
         Region renumbered = region;
         const auto n = static_cast<Index>(region.positions.size());
         const auto other = [n](Index v) { return (v * 5 + 3) % n; };  // 5 has no factor of n = 169
-        for (Index v = 0; v < n; ++v) renumbered.positions[static_cast<std::size_t>(other(v))] = region.position(v);
+        for (Index v = 0; v < n; ++v)
+            renumbered.positions[static_cast<std::size_t>(other(v))] = region.position(v);
         for (Triangle& t : renumbered.triangles) {
             for (Index& v : t) v = other(v);
         }
@@ -135,7 +141,8 @@ TEST_SUITE("core/constrain/constrained_newton") {
         renumbered.border = checked_border(renumbered);
         const Points2 found = flattened(renumbered, locks).chart.uv;
         Points2 back(found.size());
-        for (Index v = 0; v < n; ++v) back[static_cast<std::size_t>(v)] = found[static_cast<std::size_t>(other(v))];
+        for (Index v = 0; v < n; ++v)
+            back[static_cast<std::size_t>(v)] = found[static_cast<std::size_t>(other(v))];
         CHECK(test::rigid_difference(expected, back) < 1e-7);
     }
 
@@ -172,14 +179,17 @@ TEST_SUITE("core/constrain/constrained_newton") {
         progress.cancel();
         const Region region = test::dome();
         const Chart start = flatten_mean_value(region, circle_border(region));
-        CHECK_THROWS_AS((void)minimise_distortion(region, start, {}, SymmetricDirichlet(), progress), Error);
+        CHECK_THROWS_AS(
+            (void)minimise_distortion(region, start, {}, SymmetricDirichlet(), progress), Error);
     }
 
     TEST_CASE("a folded start is refused") {
         const Region region = test::plane(4);
         Points2 folded = shadow(region);
         folded[12] += Vec2(200, 0);
-        CHECK_THROWS_AS((void)minimise_distortion(region, {folded}, {}, SymmetricDirichlet(), Progress()), Error);
+        CHECK_THROWS_AS(
+            (void)minimise_distortion(region, {folded}, {}, SymmetricDirichlet(), Progress()),
+            Error);
     }
 }
 

@@ -16,33 +16,40 @@ std::string tube(int around, int up) {
     for (int j = 0; j <= up; ++j) {
         for (int i = 0; i < around; ++i) {
             const double angle = 2 * M_PI * i / around;
-            obj += "v " + std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " " + std::to_string(j) + "\n";
+            obj += "v " + std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) +
+                   " " + std::to_string(j) + "\n";
         }
     }
     for (int j = 0; j < up; ++j) {
         for (int i = 0; i < around; ++i) {
             const int a = j * around + i + 1, b = j * around + (i + 1) % around + 1;
-            obj += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(b + around) + " " + std::to_string(a + around) + "\n";
+            obj += "f " + std::to_string(a) + " " + std::to_string(b) + " " +
+                   std::to_string(b + around) + " " + std::to_string(a + around) + "\n";
         }
     }
     return obj;
 }
 
-std::vector<Region> cut(const std::string& obj, const std::vector<CurveSource>& sources, const CutOptions& options) {
+std::vector<Region> cut(const std::string& obj, const std::vector<CurveSource>& sources,
+                        const CutOptions& options) {
     const SurfaceMesh surface = weld(load_model(obj));
     return cut_into_regions(surface, locate_curves(surface, sources), options);
 }
 
-std::string error_of(const std::string& obj, const std::vector<CurveSource>& sources, const CutOptions& options) {
+std::string error_of(const std::string& obj, const std::vector<CurveSource>& sources,
+                     const CutOptions& options) {
     try {
         (void)cut(obj, sources, options);
     } catch (const Error& error) {
-        return std::string(name(error.code())) + " " + error.option().value_or("") + ": " + error.what();
+        return std::string(name(error.code())) + " " + error.option().value_or("") + ": " +
+               error.what();
     }
     return "no error";
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 const CurveSource front{"front", {0, 8, 16, 24}, ""}, back{"back", {4, 12, 20, 28}, ""};
 
@@ -50,7 +57,8 @@ const CurveSource front{"front", {0, 8, 16, 24}, ""}, back{"back", {4, 12, 20, 2
 
 TEST_SUITE("core/cut") {
     TEST_CASE("two cuts along a tube leave two disks that share the cuts' lengths") {
-        const auto regions = cut(tube(8, 3), {front, back}, {{"front", "back"}, {{"a", 9, {}}, {"b", 13, {}}}});
+        const auto regions =
+            cut(tube(8, 3), {front, back}, {{"front", "back"}, {{"a", 9, {}}, {"b", 13, {}}}});
         REQUIRE(regions.size() == 2);
         CHECK(regions[0].name == "a");
         for (const Region& region : regions) {
@@ -60,7 +68,8 @@ TEST_SUITE("core/cut") {
             REQUIRE(region.runs.size() == 2);
             CHECK(region.runs[0].vertices.size() == 4);
         }
-        CHECK(std::find(regions[0].source_vertices.begin(), regions[0].source_vertices.end(), 9) != regions[0].source_vertices.end());
+        CHECK(std::find(regions[0].source_vertices.begin(), regions[0].source_vertices.end(), 9) !=
+              regions[0].source_vertices.end());
     }
 
     TEST_CASE("one cut opens the tube to one disk, whose two sides are two runs") {
@@ -77,7 +86,8 @@ TEST_SUITE("core/cut") {
     }
 
     TEST_CASE("a slit that ends inside stays one disk and doubles only what it passes") {
-        const auto regions = cut(tube(8, 3), {front, {"slit", {4, 12, 20}, ""}}, {{"front", "slit"}, {}});
+        const auto regions =
+            cut(tube(8, 3), {front, {"slit", {4, 12, 20}, ""}}, {{"front", "slit"}, {}});
         REQUIRE(regions.size() == 1);
         CHECK(regions[0].positions.size() == 36 + 2);  // the slit's inner end stays one vertex
         CHECK(regions[0].border.size() == 8 + 8 + 3 + 3 + 2 + 2);
@@ -86,15 +96,19 @@ TEST_SUITE("core/cut") {
     TEST_CASE("a closed curve whose start lies inside a region is one run there") {
         // The ring at the bottom begins at vertex 2, in the middle of region a.
         const CurveSource ring{"ring", {2, 3, 4, 5, 6, 7, 0, 1, 2}, ""};
-        const auto regions = cut(tube(8, 3), {front, back, ring}, {{"front", "back"}, {{"a", 9, {}}, {"b", 13, {}}}});
+        const auto regions = cut(tube(8, 3), {front, back, ring},
+                                 {{"front", "back"}, {{"a", 9, {}}, {"b", 13, {}}}});
         REQUIRE(regions[0].runs.size() == 3);
         CHECK(regions[0].runs[2].vertices.size() == 5);
         CHECK(regions[1].runs[2].vertices.size() == 5);
     }
 
     TEST_CASE("what is not a disk is named") {
-        CHECK(has(error_of(tube(8, 3), {}, {}), "region_not_disk /regions/region_1: region 'region_1' is not a disk: 2 border loops, at"));
-        const std::string ball = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+        CHECK(has(error_of(tube(8, 3), {}, {}),
+                  "region_not_disk /regions/region_1: region 'region_1' is not a disk: 2 border "
+                  "loops, at"));
+        const std::string ball =
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
         CHECK(has(error_of(ball, {}, {}), "it is closed (no border)"));
     }
 
@@ -104,14 +118,17 @@ TEST_SUITE("core/cut") {
         for (int j = 0; j < n; ++j) {
             for (int i = 0; i < n; ++i) {
                 const double a = 2 * M_PI * i / n, b = 2 * M_PI * j / n;
-                torus += "v " + std::to_string((3 + std::cos(b)) * std::cos(a)) + " " + std::to_string((3 + std::cos(b)) * std::sin(a)) + " " + std::to_string(std::sin(b)) + "\n";
+                torus += "v " + std::to_string((3 + std::cos(b)) * std::cos(a)) + " " +
+                         std::to_string((3 + std::cos(b)) * std::sin(a)) + " " +
+                         std::to_string(std::sin(b)) + "\n";
             }
         }
         for (int j = 0; j < n; ++j) {
             for (int i = 0; i < n; ++i) {
                 if (i == 0 && j == 0) continue;
                 const auto id = [n](int x, int y) { return std::to_string(y % n * n + x % n + 1); };
-                torus += "f " + id(i, j) + " " + id(i + 1, j) + " " + id(i + 1, j + 1) + " " + id(i, j + 1) + "\n";
+                torus += "f " + id(i, j) + " " + id(i + 1, j) + " " + id(i + 1, j + 1) + " " +
+                         id(i, j + 1) + "\n";
             }
         }
         CHECK(has(error_of(torus, {}, {}), "genus 1, 1 border loop(s)"));
@@ -119,28 +136,37 @@ TEST_SUITE("core/cut") {
 
     TEST_CASE("choices that cannot be told apart are refused") {
         const std::vector<CurveSource> both{front, back};
-        CHECK(has(error_of(tube(8, 3), both, {{"front", "back"}, {{"a", 9, {}}, {"b", 10, {}}}}), "is the same piece as region 'a'"));
-        CHECK(has(error_of(tube(8, 3), both, {{"front", "back"}, {{"a", 8, {}}}}), "lies on a cut"));
+        CHECK(has(error_of(tube(8, 3), both, {{"front", "back"}, {{"a", 9, {}}, {"b", 10, {}}}}),
+                  "is the same piece as region 'a'"));
+        CHECK(
+            has(error_of(tube(8, 3), both, {{"front", "back"}, {{"a", 8, {}}}}), "lies on a cut"));
         CHECK(has(error_of(tube(8, 3), both, {{"front", "back"}, {{"a", {}, {}}}}), "2 pieces"));
-        CHECK(has(error_of(tube(8, 3), both, {{"front", "side"}, {}}), "curve_invalid /cuts/1: cut 'side' names no curve"));
-        CHECK(has(error_of(tube(8, 3), both, {{"front", "back"}, {{"a", 99, {}}}}), "not on the selected faces"));
+        CHECK(has(error_of(tube(8, 3), both, {{"front", "side"}, {}}),
+                  "curve_invalid /cuts/1: cut 'side' names no curve"));
+        CHECK(has(error_of(tube(8, 3), both, {{"front", "back"}, {{"a", 99, {}}}}),
+                  "not on the selected faces"));
     }
 
     TEST_CASE("a region may be chosen by a place") {
-        const auto regions = cut(tube(8, 3), {front, back}, {{"front", "back"}, {{"b", {}, Vec3(0, -1, 1.1)}}});
+        const auto regions =
+            cut(tube(8, 3), {front, back}, {{"front", "back"}, {{"b", {}, Vec3(0, -1, 1.1)}}});
         REQUIRE(regions.size() == 1);
-        CHECK(std::find(regions[0].source_vertices.begin(), regions[0].source_vertices.end(), 14) != regions[0].source_vertices.end());
+        CHECK(std::find(regions[0].source_vertices.begin(), regions[0].source_vertices.end(), 14) !=
+              regions[0].source_vertices.end());
     }
 }
 
 TEST_SUITE("core/locate/curves") {
     TEST_CASE("a broken path is named by curve, item and place") {
         CHECK(has(error_of(tube(8, 3), {{"front", {0, 8, 24}, ""}}, {}),
-                  "curve_invalid /curves/front/vertices/2: curve 'front', item 2: vertices 8 and 24 share no edge; they are 2.000 mm apart, at 1.0 0.0 1.0"));
-        CHECK(has(error_of(tube(8, 3), {{"front", {0, 99}, ""}}, {}), "item 1: vertex 99 does not exist"));
+                  "curve_invalid /curves/front/vertices/2: curve 'front', item 2: vertices 8 and "
+                  "24 share no edge; they are 2.000 mm apart, at 1.0 0.0 1.0"));
+        CHECK(has(error_of(tube(8, 3), {{"front", {0, 99}, ""}}, {}),
+                  "item 1: vertex 99 does not exist"));
         CHECK(has(error_of(tube(8, 3), {{"front", {0, 8, 0}, ""}}, {}), "meets itself"));
         CHECK(has(error_of(tube(8, 3), {{"front", {0}, ""}}, {}), "needs two vertices"));
-        CHECK(has(error_of(tube(8, 3), {{"a/b", {}, "polyline"}}, {}), "unsupported_request /curves/a~1b/polyline"));
+        CHECK(has(error_of(tube(8, 3), {{"a/b", {}, "polyline"}}, {}),
+                  "unsupported_request /curves/a~1b/polyline"));
     }
 }
 

@@ -18,7 +18,8 @@ const FlattenResult& result() {
 
 std::size_t count(const std::string& text, const std::string& part) {
     std::size_t n = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        ++n;
     return n;
 }
 
@@ -48,13 +49,18 @@ TEST_SUITE("core/export") {
         std::memcpy(&length, glb.data() + 12, 4);
         const auto document = nlohmann::json::parse(glb.substr(20, length));
         const auto& attributes = document["meshes"][1]["primitives"][0]["attributes"];
-        const auto& view = document["bufferViews"][document["accessors"][attributes["TEXCOORD_0"].get<std::size_t>()]["bufferView"].get<std::size_t>()];
+        const auto& view =
+            document["bufferViews"][document["accessors"][attributes["TEXCOORD_0"]
+                                                              .get<std::size_t>()]["bufferView"]
+                                        .get<std::size_t>()];
         float uv[2];
-        std::memcpy(uv, glb.data() + 20 + length + 8 + view["byteOffset"].get<std::size_t>() + 8 * 5, 8);
+        std::memcpy(
+            uv, glb.data() + 20 + length + 8 + view["byteOffset"].get<std::size_t>() + 8 * 5, 8);
         const Vec2 expected = result().sheet.placements[1].apply(result().regions[1].chart.uv[5]);
         CHECK(uv[0] == doctest::Approx(expected.x()).epsilon(1e-6));
         CHECK(uv[1] == doctest::Approx(expected.y()).epsilon(1e-6));
-        CHECK(document["scenes"][0]["extras"]["sheet_mm"][0].get<double>() == doctest::Approx(result().sheet.width));
+        CHECK(document["scenes"][0]["extras"]["sheet_mm"][0].get<double>() ==
+              doctest::Approx(result().sheet.width));
     }
 
     TEST_CASE("the drawing is in millimetres and names every curve with its length") {
@@ -79,7 +85,8 @@ TEST_SUITE("core/export") {
 
     TEST_CASE("a model's OBJ and GLB say the same") {
         const SampleLast last = make_sample_last();
-        const RawMesh obj = load_model(write_model_obj(last.mesh)), glb = load_model(write_model_glb(last.mesh));
+        const RawMesh obj = load_model(write_model_obj(last.mesh)),
+                      glb = load_model(write_model_glb(last.mesh));
         REQUIRE(obj.positions.size() == glb.positions.size());
         CHECK(obj.triangles.size() == glb.triangles.size());
         for (std::size_t v = 0; v < obj.positions.size(); ++v) {

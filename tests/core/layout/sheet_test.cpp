@@ -32,13 +32,15 @@ Region half(bool other_side) {
 Chart view(const Region& region, bool other_side, double angle) {
     Chart chart;
     const Eigen::Rotation2Dd turn(angle);
-    for (const Vec3& p : region.positions) chart.uv.push_back(turn * Vec2(other_side ? -p.x() : p.x(), p.z()));
+    for (const Vec3& p : region.positions)
+        chart.uv.push_back(turn * Vec2(other_side ? -p.x() : p.x(), p.z()));
     return chart;
 }
 
 Points2 placed(const Region& region, const Chart& chart, const Placement& placement) {
     Points2 outline;
-    for (const Index v : region.border) outline.push_back(placement.apply(chart.uv[static_cast<std::size_t>(v)]));
+    for (const Index v : region.border)
+        outline.push_back(placement.apply(chart.uv[static_cast<std::size_t>(v)]));
     return outline;
 }
 
@@ -78,7 +80,8 @@ void check_pair(std::vector<Region> regions, double angle, double other_angle) {
             CHECK(q.y() < sheet.height + 1e-9);
         }
     }
-    CHECK_FALSE(overlap(placed(regions[0], charts[0], sheet.placements[0]), placed(regions[1], charts[1], sheet.placements[1])));
+    CHECK_FALSE(overlap(placed(regions[0], charts[0], sheet.placements[0]),
+                        placed(regions[1], charts[1], sheet.placements[1])));
     CHECK(sheet.width == doctest::Approx(200.0));
     CHECK(sheet.height < 2 * 70 + 11);
 }
@@ -87,7 +90,8 @@ void check_pair(std::vector<Region> regions, double angle, double other_angle) {
 
 TEST_SUITE("core/layout") {
     TEST_CASE("both halves lie the same way up, toe to the right, apart, in a tight rectangle") {
-        for (const double angle : {0.0, 1.0, 2.5, -2.0}) check_pair({half(false), half(true)}, angle, 0.7 - angle);
+        for (const double angle : {0.0, 1.0, 2.5, -2.0})
+            check_pair({half(false), half(true)}, angle, 0.7 - angle);
     }
 
     TEST_CASE("without named curves the last's long axis takes their place") {
@@ -98,7 +102,8 @@ TEST_SUITE("core/layout") {
         const Sheet sheet = arrange_pair(regions, charts, 10.0);
         CHECK(sheet.placements[0].mirrored != sheet.placements[1].mirrored);
         const auto toe_to_the_right = [&](std::size_t r) {
-            return place_of(charts[r], sheet.placements[r], 12).x() > place_of(charts[r], sheet.placements[r], 0).x();
+            return place_of(charts[r], sheet.placements[r], 12).x() >
+                   place_of(charts[r], sheet.placements[r], 0).x();
         };
         CHECK(toe_to_the_right(0) == toe_to_the_right(1));
     }

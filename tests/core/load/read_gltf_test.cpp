@@ -16,7 +16,8 @@ std::string base64(const std::string& bytes) {
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         std::uint32_t bits = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+            bits =
+                bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
         }
         for (std::size_t k = 0; k < 4; ++k) {
             text += i + k > bytes.size() ? '=' : alphabet[bits >> (18 - 6 * k) & 63u];
@@ -34,17 +35,31 @@ std::string raw(std::initializer_list<T> values) {
 
 /// A triangle (0,0,0) (1,0,0) (0,2,0), indexed, in one node.
 Json triangle() {
-    const std::string bytes = raw<float>({0, 0, 0, 1, 0, 0, 0, 2, 0}) + raw<std::uint16_t>({0, 1, 2});
+    const std::string bytes =
+        raw<float>({0, 0, 0, 1, 0, 0, 0, 2, 0}) + raw<std::uint16_t>({0, 1, 2});
     return {{"asset", {{"version", "2.0"}}},
             {"scene", 0},
             {"scenes", {{{"nodes", {0}}}}},
             {"nodes", {{{"name", "foot"}, {"mesh", 0}}}},
             {"materials", {{{"name", "calf"}}}},
-            {"meshes", {{{"name", "last"}, {"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"material", 0}}}}}}},
-            {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}, {"min", {0, 0, 0}}, {"max", {1, 2, 0}}},
-                           {{"bufferView", 1}, {"componentType", 5123}, {"count", 3}, {"type", "SCALAR"}}}},
-            {"bufferViews", {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 36}}, {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 6}}}},
-            {"buffers", {{{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}}}}};
+            {"meshes",
+             {{{"name", "last"},
+               {"primitives",
+                {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"material", 0}}}}}}},
+            {"accessors",
+             {{{"bufferView", 0},
+               {"componentType", 5126},
+               {"count", 3},
+               {"type", "VEC3"},
+               {"min", {0, 0, 0}},
+               {"max", {1, 2, 0}}},
+              {{"bufferView", 1}, {"componentType", 5123}, {"count", 3}, {"type", "SCALAR"}}}},
+            {"bufferViews",
+             {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 36}},
+              {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 6}}}},
+            {"buffers",
+             {{{"byteLength", bytes.size()},
+               {"uri", "data:application/octet-stream;base64," + base64(bytes)}}}}};
 }
 
 std::string error_of(const std::string& text) {
@@ -56,7 +71,9 @@ std::string error_of(const std::string& text) {
     return "no error";
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 }  // namespace
 
@@ -66,13 +83,16 @@ TEST_SUITE("core/load/read_gltf") {
         REQUIRE(mesh.triangles.size() == 1);
         CHECK(mesh.positions[2] == Vec3(0, 2, 0));
         CHECK(mesh.default_unit_mm == 1000.0);
-        CHECK(mesh.label_sets[mesh.triangle_labels[0]] == std::vector<std::string>{"foot", "last", "calf"});
+        CHECK(mesh.label_sets[mesh.triangle_labels[0]] ==
+              std::vector<std::string>{"foot", "last", "calf"});
     }
 
     TEST_CASE("transforms of nodes multiply from the root down, and mirrors turn the winding") {
         Json model = triangle();
         model["nodes"] = {{{"children", {1}}, {"translation", {10, 0, 0}}},
-                          {{"mesh", 0}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}, {"scale", {1, 1, 1}}}};
+                          {{"mesh", 0},
+                           {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}},
+                           {"scale", {1, 1, 1}}}};
         RawMesh mesh = load_model(model.dump());
         CHECK((mesh.positions[1] - Vec3(10, 1, 0)).norm() < 1e-12);
         CHECK(mesh.triangles[0] == Triangle{0, 1, 2});
@@ -83,12 +103,19 @@ TEST_SUITE("core/load/read_gltf") {
 
     TEST_CASE("quantized and normalised positions are read as the extension says") {
         Json model = triangle();
-        const std::string bytes = raw<std::int16_t>({0, 0, 0, 0, 32767, 0, 0, 0, 0, -32768, 0, 0}) + raw<std::uint16_t>({0, 1, 2});
+        const std::string bytes = raw<std::int16_t>({0, 0, 0, 0, 32767, 0, 0, 0, 0, -32768, 0, 0}) +
+                                  raw<std::uint16_t>({0, 1, 2});
         model["extensionsRequired"] = {"KHR_mesh_quantization"};
-        model["accessors"][0] = {{"bufferView", 0}, {"componentType", 5122}, {"normalized", true}, {"count", 3}, {"type", "VEC3"}};
-        model["bufferViews"][0] = {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 24}, {"byteStride", 8}};
+        model["accessors"][0] = {{"bufferView", 0},
+                                 {"componentType", 5122},
+                                 {"normalized", true},
+                                 {"count", 3},
+                                 {"type", "VEC3"}};
+        model["bufferViews"][0] = {
+            {"buffer", 0}, {"byteOffset", 0}, {"byteLength", 24}, {"byteStride", 8}};
         model["bufferViews"][1]["byteOffset"] = 24;
-        model["buffers"][0] = {{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}};
+        model["buffers"][0] = {{"byteLength", bytes.size()},
+                               {"uri", "data:application/octet-stream;base64," + base64(bytes)}};
         const RawMesh mesh = load_model(model.dump());
         CHECK(mesh.positions[1] == Vec3(1, 0, 0));
         CHECK(mesh.positions[2] == Vec3(0, -1, 0));
@@ -110,12 +137,15 @@ TEST_SUITE("core/load/read_gltf") {
 
     TEST_CASE("strips alternate their winding and drop repeated vertices") {
         Json model = triangle();
-        const std::string bytes = raw<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}) + raw<std::uint16_t>({0, 1, 2, 3, 3});
+        const std::string bytes =
+            raw<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}) + raw<std::uint16_t>({0, 1, 2, 3, 3});
         model["meshes"][0]["primitives"][0]["mode"] = 5;
         model["accessors"][0]["count"] = 4;
         model["accessors"][1]["count"] = 5;
-        model["bufferViews"] = {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 48}}, {{"buffer", 0}, {"byteOffset", 48}, {"byteLength", 10}}};
-        model["buffers"][0] = {{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}};
+        model["bufferViews"] = {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 48}},
+                                {{"buffer", 0}, {"byteOffset", 48}, {"byteLength", 10}}};
+        model["buffers"][0] = {{"byteLength", bytes.size()},
+                               {"uri", "data:application/octet-stream;base64," + base64(bytes)}};
         const RawMesh mesh = load_model(model.dump());
         CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}});
     }
@@ -123,10 +153,12 @@ TEST_SUITE("core/load/read_gltf") {
     TEST_CASE("what is not read is refused by name") {
         Json model = triangle();
         model["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-        CHECK(has(error_of(model.dump()), "unsupported_model: glTF: requires the extension KHR_draco_mesh_compression"));
+        CHECK(has(error_of(model.dump()),
+                  "unsupported_model: glTF: requires the extension KHR_draco_mesh_compression"));
         model = triangle();
         model["buffers"][0]["uri"] = "../../etc/passwd";
-        CHECK(has(error_of(model.dump()), "unsupported_model: glTF: refers to another file, '../../etc/passwd'"));
+        CHECK(has(error_of(model.dump()),
+                  "unsupported_model: glTF: refers to another file, '../../etc/passwd'"));
         model = triangle();
         model["images"] = {{{"uri", "leather.png"}}};
         CHECK(has(error_of(model.dump()), "'leather.png'"));
@@ -154,14 +186,16 @@ TEST_SUITE("core/load/read_gltf") {
 
     TEST_CASE("an index past the vertices is refused") {
         Json model = triangle();
-        const std::string bytes = raw<float>({0, 0, 0, 1, 0, 0, 0, 2, 0}) + raw<std::uint16_t>({0, 1, 3});
+        const std::string bytes =
+            raw<float>({0, 0, 0, 1, 0, 0, 0, 2, 0}) + raw<std::uint16_t>({0, 1, 3});
         model["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(bytes);
         CHECK(has(error_of(model.dump()), "index 3 of accessor 1 is past its 3 vertices"));
     }
 
     TEST_CASE("a position that is not finite is refused") {
         Json model = triangle();
-        const std::string bytes = raw<float>({0, 0, 0, INFINITY, 0, 0, 0, 2, 0}) + raw<std::uint16_t>({0, 1, 2});
+        const std::string bytes =
+            raw<float>({0, 0, 0, INFINITY, 0, 0, 0, 2, 0}) + raw<std::uint16_t>({0, 1, 2});
         model["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(bytes);
         CHECK(has(error_of(model.dump()), "mesh_degenerate"));
     }

@@ -15,7 +15,9 @@ std::string error_of(std::string_view text, const LoadLimits& limits = {}) {
     return "no error";
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 }  // namespace
 
@@ -34,11 +36,13 @@ TEST_SUITE("core/load/read_obj") {
 
     TEST_CASE("groups, objects and materials are the names of a face") {
         const RawMesh mesh = load_model(
-            "v 0 0 0\nv 1 0 0\nv 0 1 0\no last one\ng upper left\nusemtl calf skin\nf 1 2 3\ng sole\nf 1 3 2\n");
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\no last one\ng upper left\nusemtl calf skin\nf 1 2 3\ng "
+            "sole\nf 1 3 2\n");
         REQUIRE(mesh.label_sets.size() == 2);
         CHECK(mesh.label_sets[mesh.triangle_labels[0]] ==
               std::vector<std::string>{"upper", "left", "last one", "calf skin"});
-        CHECK(mesh.label_sets[mesh.triangle_labels[1]] == std::vector<std::string>{"sole", "last one", "calf skin"});
+        CHECK(mesh.label_sets[mesh.triangle_labels[1]] ==
+              std::vector<std::string>{"sole", "last one", "calf skin"});
     }
 
     TEST_CASE("a concave polygon keeps its area") {
@@ -46,8 +50,10 @@ TEST_SUITE("core/load/read_obj") {
         const std::vector<Index> corners{0, 1, 2, 3, 4};
         double area = 0;
         for (const Triangle& t : triangulate_polygon(points, corners)) {
-            const Vec3 a = points[static_cast<std::size_t>(t[1])] - points[static_cast<std::size_t>(t[0])];
-            const Vec3 b = points[static_cast<std::size_t>(t[2])] - points[static_cast<std::size_t>(t[0])];
+            const Vec3 a =
+                points[static_cast<std::size_t>(t[1])] - points[static_cast<std::size_t>(t[0])];
+            const Vec3 b =
+                points[static_cast<std::size_t>(t[2])] - points[static_cast<std::size_t>(t[0])];
             const double doubled = a.x() * b.y() - a.y() * b.x();
             CHECK(doubled > 0);
             area += doubled / 2;
@@ -82,7 +88,8 @@ TEST_SUITE("core/load/read_obj") {
         CHECK(has(error_of("v 0 0 0\nv 0 0 0\nv 0 0 0\n", limits), "model_too_large"));
         limits = {};
         limits.polygon_corners = 3;
-        CHECK(has(error_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", limits), "model_too_large"));
+        CHECK(has(error_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", limits),
+                  "model_too_large"));
     }
 
     TEST_CASE("formats that are not read are named") {

@@ -44,8 +44,10 @@ TEST_SUITE("core/measure/report") {
         CHECK(m.angle_distortion == doctest::Approx((4 + 0.25) / 2));
         CHECK(m.area_error < 1e-12);
         CHECK(m.area_3d_mm2 == doctest::Approx(400.0));
-        for (const double s : signed_stretches(region, stretched(region, 1.1, 1.0))) CHECK(s == doctest::Approx(1.1));
-        for (const double s : signed_stretches(region, stretched(region, 1.0, 0.9))) CHECK(s == doctest::Approx(0.9));
+        for (const double s : signed_stretches(region, stretched(region, 1.1, 1.0)))
+            CHECK(s == doctest::Approx(1.1));
+        for (const double s : signed_stretches(region, stretched(region, 1.0, 0.9)))
+            CHECK(s == doctest::Approx(0.9));
     }
 
     TEST_CASE("a uniform scale shows in raw stretch and area, not in the normalised ones") {
@@ -70,7 +72,8 @@ TEST_SUITE("core/measure/report") {
 
     TEST_CASE("a border that crosses itself fails isometric and warns others") {
         // A strip bent once around: its ends overlap, but no triangle flips.
-        const Region region = test::grid(40, 1, [](double s, double t) { return Vec3(200 * s, 10 * t, 0); });
+        const Region region =
+            test::grid(40, 1, [](double s, double t) { return Vec3(200 * s, 10 * t, 0); });
         Points2 uv;
         for (const Vec3& p : region.positions) {
             const double angle = p.x() / 200 * 2 * M_PI * 1.1, r = 40 - p.y();

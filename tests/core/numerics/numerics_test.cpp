@@ -34,7 +34,8 @@ TEST_SUITE("core/numerics/dominant_lu") {
         for (int i = 0; i < n; ++i) {
             for (int j = 0; j < n; ++j) {
                 double sum = i == 0 ? 0.5 : 0.0;  // held along one side only
-                for (const auto& [a, b] : {std::pair(i - 1, j), std::pair(i + 1, j), std::pair(i, j - 1), std::pair(i, j + 1)}) {
+                for (const auto& [a, b] : {std::pair(i - 1, j), std::pair(i + 1, j),
+                                           std::pair(i, j - 1), std::pair(i, j + 1)}) {
                     if (a < 0 || b < 0 || a >= n || b >= n) continue;
                     const double w = 1.0 + 0.9 * std::sin(3.0 * id(i, j) + 5.0 * id(a, b));
                     entries.emplace_back(id(i, j), id(a, b), -w);
@@ -45,9 +46,10 @@ TEST_SUITE("core/numerics/dominant_lu") {
         }
         SparseMatrix A(n * n, n * n);
         A.setFromTriplets(entries.begin(), entries.end());
-        const Eigen::MatrixXd x = Eigen::MatrixXd::NullaryExpr(n * n, 2, [](Eigen::Index i, Eigen::Index j) {
-            return std::cos(static_cast<double>(i + 7 * j));
-        });
+        const Eigen::MatrixXd x =
+            Eigen::MatrixXd::NullaryExpr(n * n, 2, [](Eigen::Index i, Eigen::Index j) {
+                return std::cos(static_cast<double>(i + 7 * j));
+            });
         CHECK((DominantLu(A).solve(A * x) - x).norm() < 1e-10);
         CHECK((A - SparseMatrix(A.transpose())).norm() > 1.0);
     }
@@ -102,12 +104,14 @@ TEST_SUITE("core/numerics/polygon") {
     }
 
     TEST_CASE("a border that touches itself along a line counts as crossing") {
-        CHECK_FALSE(self_crossings({{0, 0}, {6, 0}, {6, 3}, {4, 3}, {4, 0}, {2, 0}, {2, 3}, {0, 3}}).empty());
+        CHECK_FALSE(self_crossings({{0, 0}, {6, 0}, {6, 3}, {4, 3}, {4, 0}, {2, 0}, {2, 3}, {0, 3}})
+                        .empty());
     }
 
     TEST_CASE("the angle of a needle keeps its digits") {
         const double tiny = 1e-9;
-        CHECK(angle_at(Vec2(0, 0), Vec2(1, 0), Vec2(1, tiny)) == doctest::Approx(tiny).epsilon(1e-6));
+        CHECK(angle_at(Vec2(0, 0), Vec2(1, 0), Vec2(1, tiny)) ==
+              doctest::Approx(tiny).epsilon(1e-6));
     }
 }
 

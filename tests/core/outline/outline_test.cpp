@@ -8,7 +8,8 @@ namespace lastflat {
 
 TEST_SUITE("core/outline") {
     TEST_CASE("the outline runs counter-clockwise and its segments cover it") {
-        const Region region = test::grid(4, 3, [](double s, double t) { return Vec3(40 * s, 30 * t, 0); });
+        const Region region =
+            test::grid(4, 3, [](double s, double t) { return Vec3(40 * s, 30 * t, 0); });
         Chart chart;
         for (const Vec3& p : region.positions) chart.uv.push_back(p.head<2>());
         const Outline outline = trace_outline(region, chart);
@@ -27,7 +28,8 @@ TEST_SUITE("core/outline") {
     }
 
     TEST_CASE("a curve inside the region is no segment") {
-        Region region = test::grid(4, 3, [](double s, double t) { return Vec3(40 * s, 30 * t, 0); });
+        Region region =
+            test::grid(4, 3, [](double s, double t) { return Vec3(40 * s, 30 * t, 0); });
         region.runs = {{"inner", {6, 7, 8}}};
         Chart chart;
         for (const Vec3& p : region.positions) chart.uv.push_back(p.head<2>());

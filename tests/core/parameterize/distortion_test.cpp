@@ -17,7 +17,8 @@ Eigen::VectorXd some_chart(const Region& region) {
     for (std::size_t i = 0; i < region.positions.size(); ++i) {
         const Vec3& p = region.positions[i];
         x.segment<2>(2 * static_cast<Eigen::Index>(i)) =
-            Vec2(1.2 * p.x() + 0.1 * p.y() + std::sin(0.05 * p.y()), 0.8 * p.y() + 0.002 * p.x() * p.x());
+            Vec2(1.2 * p.x() + 0.1 * p.y() + std::sin(0.05 * p.y()),
+                 0.8 * p.y() + 0.002 * p.x() * p.x());
     }
     return x;
 }
@@ -48,11 +49,13 @@ TEST_SUITE("core/parameterize/distortion") {
             Eigen::VectorXd a = x, b = x;
             a[i] -= h;
             b[i] += h;
-            CHECK((distortion.value(b) - distortion.value(a)) / (2 * h) == doctest::Approx(gradient[i]).epsilon(1e-6));
+            CHECK((distortion.value(b) - distortion.value(a)) / (2 * h) ==
+                  doctest::Approx(gradient[i]).epsilon(1e-6));
             SparseMatrix unused = H;
             const Eigen::VectorXd difference =
                 (distortion.differentiate(b, HessianKind::exact, unused) -
-                 distortion.differentiate(a, HessianKind::exact, unused)) / (2 * h);
+                 distortion.differentiate(a, HessianKind::exact, unused)) /
+                (2 * h);
             for (Eigen::Index j = 0; j < x.size(); ++j) {
                 CHECK(std::abs(difference[j] - H.coeff(std::max(i, j), std::min(i, j))) < 1e-5);
             }

@@ -27,14 +27,16 @@ TEST_SUITE("core/parameterize/geodesic_fan") {
 
     TEST_CASE("a flat convex region comes back nearly unchanged") {
         // Not exactly: the virtual layer pulls at the border (reading of the paper, C).
-        const Region region = test::grid(12, 12, [](double s, double t) { return Vec3(90 * s, 70 * t, 0); });
+        const Region region =
+            test::grid(12, 12, [](double s, double t) { return Vec3(90 * s, 70 * t, 0); });
         CHECK(test::worst_edge_change(region, fan(region).uv) < 0.05);
     }
 
     TEST_CASE("turning and moving the region changes nothing") {
         const Region region = test::saddle();
         Region moved = region;
-        const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+        const Eigen::Matrix3d turn =
+            Eigen::AngleAxisd(1.1, Vec3(1, 2, -1).normalized()).toRotationMatrix();
         for (Vec3& p : moved.positions) p = turn * p + Vec3(100, -20, 7);
         CHECK(test::rigid_difference(fan(region).uv, fan(moved).uv) < 1e-9);
     }

@@ -10,7 +10,8 @@ namespace {
 
 Points2 flat_border(const Region& region) {
     Points2 border;
-    for (const Index v : region.border) border.emplace_back(region.position(v).x(), region.position(v).y());
+    for (const Index v : region.border)
+        border.emplace_back(region.position(v).x(), region.position(v).y());
     return border;
 }
 
@@ -29,7 +30,8 @@ TEST_SUITE("core/parameterize/mean_value") {
 
     TEST_CASE("a strictly convex border never flips a triangle") {
         for (const Region& region : {test::dome(14, 1.4), test::saddle(15), test::cone(9)}) {
-            CHECK(flipped_triangles(region, flatten_mean_value(region, circle_border(region)).uv).empty());
+            CHECK(flipped_triangles(region, flatten_mean_value(region, circle_border(region)).uv)
+                      .empty());
         }
     }
 
@@ -39,13 +41,15 @@ TEST_SUITE("core/parameterize/mean_value") {
         region.positions.push_back(Vec3::Zero());
         for (int i = 0; i < 6; ++i) {
             region.positions.emplace_back(std::cos(i * M_PI / 3), std::sin(i * M_PI / 3), 0.0);
-            region.triangles.push_back({0, static_cast<Index>(1 + i), static_cast<Index>(1 + (i + 1) % 6)});
+            region.triangles.push_back(
+                {0, static_cast<Index>(1 + i), static_cast<Index>(1 + (i + 1) % 6)});
         }
         region.border = checked_border(region);
         Points2 border;
         Vec2 mean = Vec2::Zero();
         for (std::size_t i = 0; i < 6; ++i) {
-            border.emplace_back(3.0 * std::cos(1.0 * static_cast<double>(i)), 2.0 * std::sin(1.0 * static_cast<double>(i)));
+            border.emplace_back(3.0 * std::cos(1.0 * static_cast<double>(i)),
+                                2.0 * std::sin(1.0 * static_cast<double>(i)));
             mean += border.back() / 6.0;
         }
         CHECK((flatten_mean_value(region, border).uv[0] - mean).norm() < 1e-14);

@@ -16,7 +16,9 @@ std::string error_of(const std::string& obj, const WeldOptions& options = {}) {
     return "no error";
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 const std::string tetrahedron =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
@@ -26,8 +28,10 @@ double volume(const SurfaceMesh& surface) {
     for (const auto face : surface.mesh.faces()) {
         std::vector<Vec3> p;
         for (const auto v : surface.mesh.fv_range(face)) p.push_back(surface.position(v.idx()));
-        sum += p[0].dot(Vec3(p[1].y() * p[2].z() - p[1].z() * p[2].y(), p[1].z() * p[2].x() - p[1].x() * p[2].z(),
-                             p[1].x() * p[2].y() - p[1].y() * p[2].x())) / 6;
+        sum += p[0].dot(Vec3(p[1].y() * p[2].z() - p[1].z() * p[2].y(),
+                             p[1].z() * p[2].x() - p[1].x() * p[2].z(),
+                             p[1].x() * p[2].y() - p[1].y() * p[2].x())) /
+               6;
     }
     return sum;
 }
@@ -36,13 +40,16 @@ double volume(const SurfaceMesh& surface) {
 
 TEST_SUITE("core/weld") {
     TEST_CASE("what is not a surface is refused with its place") {
-        CHECK(has(error_of("v 0 0 0\nv 0 0 2\nv 1 0 0\nv 0 1 0\nv -1 0 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n"),
-                  "mesh_not_manifold: edge shared by 3 faces at 0.0 0.0 1.0"));
+        CHECK(has(
+            error_of("v 0 0 0\nv 0 0 2\nv 1 0 0\nv 0 1 0\nv -1 0 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n"),
+            "mesh_not_manifold: edge shared by 3 faces at 0.0 0.0 1.0"));
         CHECK(has(error_of("v 0 0 0\nv 4 0 0\nv 0 1 0\nv 0 -1 0\nf 1 2 3\nf 1 2 4\n"),
-                  "mesh_not_oriented: two faces that share an edge wind in opposite directions at 2.0 0.0 0.0"));
+                  "mesh_not_oriented: two faces that share an edge wind in opposite directions at "
+                  "2.0 0.0 0.0"));
         CHECK(has(error_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nf 1 2 3\nf 1 4 5\n"),
                   "mesh_not_manifold: vertex 0 joins parts"));
-        CHECK(has(error_of("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"), "mesh_degenerate: triangle 0 1 2 has no area"));
+        CHECK(has(error_of("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"),
+                  "mesh_degenerate: triangle 0 1 2 has no area"));
     }
 
     TEST_CASE("a missing group is named, with those that there are") {
@@ -54,11 +61,13 @@ TEST_SUITE("core/weld") {
 
     TEST_CASE("a closed model inside out is turned, with a warning") {
         std::string inside_out = tetrahedron;
-        for (const auto& [a, b] : {std::pair("f 1 3 2", "f 1 2 3"), std::pair("f 1 2 4", "f 1 4 2"),
-                                   std::pair("f 2 3 4", "f 2 4 3"), std::pair("f 1 4 3", "f 1 3 4")}) {
+        for (const auto& [a, b] :
+             {std::pair("f 1 3 2", "f 1 2 3"), std::pair("f 1 2 4", "f 1 4 2"),
+              std::pair("f 2 3 4", "f 2 4 3"), std::pair("f 1 4 3", "f 1 3 4")}) {
             inside_out.replace(inside_out.find(a), 7, b);
         }
-        const SurfaceMesh good = weld(load_model(tetrahedron)), turned = weld(load_model(inside_out));
+        const SurfaceMesh good = weld(load_model(tetrahedron)),
+                          turned = weld(load_model(inside_out));
         CHECK(good.warnings.empty());
         REQUIRE(turned.warnings.size() == 1);
         CHECK(turned.warnings[0].code == "orientation_reversed");
@@ -67,7 +76,8 @@ TEST_SUITE("core/weld") {
     }
 
     TEST_CASE("indexed vertices of one place stay apart unless asked") {
-        const std::string slit = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n";
+        const std::string slit =
+            "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n";
         CHECK(weld(load_model(slit)).welded_to == std::vector<Index>{0, 1, 2, 3, 4, 5});
         WeldOptions options;
         options.tolerance_mm = 0.001;
@@ -75,7 +85,8 @@ TEST_SUITE("core/weld") {
     }
 
     TEST_CASE("without indices, vertices of one place are one vertex") {
-        RawMesh raw = load_model("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n");
+        RawMesh raw =
+            load_model("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n");
         raw.indexed = false;
         CHECK(weld(raw).welded_to == std::vector<Index>{0, 1, 2, 0, 2, 5});
     }

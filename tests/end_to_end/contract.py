@@ -1,0 +1,384 @@
+#!/usr/bin/env python3
+"""Holds a running server against api/openapi.json.
+
+    LASTFLAT=build/release/lastflat tests/end_to_end/contract.py
+
+Starts a server, provokes every path, method and status that it can, and validates every answer: status declared, headers
+declared, present and well-formed, content type declared, body as its schema says. Ends with 1 if an answer breaks the
+contract or a declared operation was never exercised; lists the declared statuses that it could not provoke. Without
+python3-jsonschema it says so and ends with 77 (skipped).
+"""
+
+import base64
+import json
+import math
+import os
+import pathlib
+import select
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import urllib.parse
+
+try:
+    from jsonschema import Draft202012Validator
+except ImportError:
+    print("skipped: python3-jsonschema 4 or later is not installed")
+    sys.exit(77)
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+NO_JOB = "0" * 26
+TYPES = {"json": "application/json", "svg": "image/svg+xml", "glb": "model/gltf-binary", "obj": "model/obj"}
+
+
+class Contract:
+    """The document, and which of its answers were seen."""
+
+    def __init__(self, document):
+        self.document = document
+        self.seen = set()
+        self.faults = []
+        self.validators = {}
+
+    def resolve(self, node):
+        while "$ref" in node:
+            target = self.document
+            for name in node["$ref"][2:].split("/"):
+                target = target[name]
+            node = target
+        return node
+
+    def operations(self):
+        for path, item in self.document["paths"].items():
+            for method in ("get", "head", "post", "put", "patch", "delete", "options"):
+                if method in item:
+                    yield method.upper(), path, item[method]
+
+    def declared(self):
+        return {(m, p, int(status)) for m, p, o in self.operations() for status in o["responses"]}
+
+    def complain(self, where, what):
+        self.faults.append(f"{where}: {what}")
+        print(f"FAULT {where}: {what}")
+
+    def check_value(self, where, schema, value):
+        key = json.dumps(schema, sort_keys=True)
+        if key not in self.validators:
+            self.validators[key] = Draft202012Validator({**schema, "components": self.document["components"]})
+        for error in list(self.validators[key].iter_errors(value))[:3]:
+            self.complain(where, f"/{'/'.join(map(str, error.absolute_path))}: {error.message[:300]}")
+
+    def check(self, method, path, answer):
+        """Validates one answer to a declared operation, or to a method or path that is none."""
+        status, headers, body = answer
+        where = f"{method} {path} {status}"
+        item = self.document["paths"].get(path, {})
+        if method.lower() in item:
+            self.seen.add((method, path, status))
+            response = item[method.lower()]["responses"].get(str(status))
+            if response is None:
+                return self.complain(where, f"this status is not declared: {body[:200]!r}")
+        else:
+            name = "MethodNotAllowed" if item else "NotFound"
+            response = {"$ref": "#/components/responses/" + name}
+            if status != (405 if item else 404):
+                return self.complain(where, "expected 405 for a method, 404 for a path that is not declared")
+        response = self.resolve(response)
+        self.check_headers(where, response.get("headers", {}), headers)
+        content = response.get("content")
+        if not content:
+            if body:
+                self.complain(where, f"a body that is not declared: {body[:200]!r}")
+            return None
+        media_type = headers.get("content-type", "").split(";")[0]
+        if media_type not in content:
+            return self.complain(where, f"the content type {media_type!r} is not declared")
+        if media_type.endswith("json"):
+            value = json.loads(body)
+            self.check_value(where, content[media_type]["schema"], value)
+            if media_type == "application/problem+json" and value["status"] != status:
+                self.complain(where, f"the problem says {value['status']}")
+            return value
+        return body
+
+    def check_headers(self, where, declared, headers):
+        for name, header in declared.items():
+            header = self.resolve(header)
+            value = headers.get(name.lower())
+            if value is None:
+                if header.get("required"):
+                    self.complain(where, f"the header {name} is missing")
+                continue
+            if header["schema"].get("type") == "integer":
+                value = int(value)
+            self.check_value(f"{where}, header {name}", header["schema"], value)
+        for name in headers:
+            if name not in {n.lower() for n in declared} | {"content-type"}:
+                self.complain(where, f"the header {name} is not declared")
+
+    def check_itself(self):
+        """Every reference leads somewhere; every example is what its schema says."""
+        def walk(node, where):
+            if isinstance(node, dict):
+                if "$ref" in node:
+                    self.resolve(node)
+                if isinstance(node.get("schema"), dict) and isinstance(node.get("examples"), dict):
+                    for name, example in node["examples"].items():
+                        self.check_value(f"example {where}/{name}", node["schema"], example["value"])
+                for name, child in node.items():
+                    walk(child, f"{where}/{name}")
+            elif isinstance(node, list):
+                for i, child in enumerate(node):
+                    walk(child, f"{where}/{i}")
+        walk(self.document, "")
+        for name, schema in self.document["components"]["schemas"].items():
+            Draft202012Validator.check_schema(schema)
+            for example in schema.get("examples", []):
+                self.check_value(f"example of {name}", {"$ref": f"#/components/schemas/{name}"}, example)
+
+
+class Server:
+    def __init__(self, program, *flags):
+        self.process = subprocess.Popen([program, "serve", "--listen", "127.0.0.1:0", *flags], stdout=subprocess.PIPE,
+                                        stderr=subprocess.DEVNULL, text=True)
+        assert select.select([self.process.stdout], [], [], 10)[0], "the server does not start"
+        line = self.process.stdout.readline()
+        assert line.startswith("listening on http://"), f"the server does not start: {line!r}"
+        self.port = urllib.parse.urlsplit(line.split()[-1]).port
+
+    def stop(self):
+        self.process.kill()
+        self.process.wait()
+
+    def open(self, data):
+        connection = socket.create_connection(("127.0.0.1", self.port), timeout=60)
+        connection.sendall(data)
+        return connection
+
+    @staticmethod
+    def read(connection):
+        """The answer that is there when the server closes: status, headers in lower case, body."""
+        data = b""
+        with connection:
+            while step := connection.recv(1 << 20):
+                data += step
+        head, _, body = data.partition(b"\r\n\r\n")
+        lines = head.decode("latin-1").split("\r\n")
+        headers = {}
+        for line in lines[1:]:
+            name, _, value = line.partition(":")
+            headers[name.lower()] = value.strip()
+        return int(lines[0].split()[1]), headers, body
+
+
+class Walk:
+    """Requests to one server, each answer held against the contract."""
+
+    def __init__(self, server, contract):
+        self.server, self.contract = server, contract
+
+    def ask(self, method, path, *, id=NO_JOB, query="", headers=(), body=None, version="HTTP/1.1", host="x"):
+        lines = [f"{method} {path.replace('{id}', id)}{query} {version}", f"Host: {host}", *headers]
+        if body is not None:
+            lines.append(f"Content-Length: {len(body)}")
+        data = "\r\n".join(lines).encode() + b"\r\n\r\n" + (body or b"")
+        answer = self.server.read(self.server.open(data))
+        return answer[0], self.contract.check(method, path, answer)
+
+    def expect(self, status, code, method, path, **request):
+        got, value = self.ask(method, path, **request)
+        got_code = value.get("code") if isinstance(value, dict) and got >= 400 else None
+        if (got, got_code) != (status, code):
+            self.contract.complain(f"{method} {path}", f"expected {status} {code}, got {got} {got_code}: {str(value)[:200]}")
+        return value
+
+    def post(self, model, request=None):
+        constraints = base64.urlsafe_b64encode(json.dumps(request or {}).encode()).decode()
+        return self.expect(202, None, "POST", "/v1/jobs", body=model,
+                           headers=["Content-Type: model/obj", "X-Flatten-Constraints: " + constraints])["id"]
+
+    def wait_for(self, id, *states):
+        end = time.monotonic() + 60
+        while (job := self.expect(200, None, "GET", "/v1/jobs/{id}", id=id))["state"] not in states:
+            assert time.monotonic() < end, f"the job is still {job['state']}, not {states}"
+            time.sleep(0.02)
+        return job
+
+
+def form(*parts):
+    body = b"".join(b'--line\r\nContent-Disposition: form-data; name="%s"\r\n\r\n%s\r\n' % part for part in parts)
+    return {"headers": ["Content-Type: multipart/form-data; boundary=line"], "body": body + b"--line--\r\n"}
+
+
+def bumpy_disk(n):
+    def height(x, y):
+        return 6 * math.sin(200 * x / n / 9) * math.cos(200 * y / n / 11)
+    points = [f"v {200 * x / n:.4f} {200 * y / n:.4f} {height(x, y):.4f}" for y in range(n) for x in range(n)]
+    corners = [y * n + x + 1 for y in range(n - 1) for x in range(n - 1)]
+    return "\n".join(points + [f"f {a} {a + 1} {a + n + 1} {a + n}" for a in corners]).encode()
+
+
+def is_near(a, b):
+    if isinstance(a, (int, float)) and isinstance(b, (int, float)):
+        return abs(a - b) <= 1e-3
+    if isinstance(a, list) and isinstance(b, list):
+        return len(a) == len(b) and all(map(is_near, a, b))
+    if isinstance(a, dict) and isinstance(b, dict):
+        return a.keys() == b.keys() and all(is_near(a[k], b[k]) for k in a if k != "timing_ms")
+    return a == b
+
+
+def walk_http(walk):
+    """What HTTP alone can go wrong by, on every operation; what is slow to answer is returned to be read later."""
+    waiting = []
+    for method, path, _ in walk.contract.operations():
+        walk.ask(method, path, query="?a=1&a=2")
+        walk.ask(method, path, host="a b")
+        walk.ask(method, path, headers=["Content-Length: 99999999999"])
+        walk.ask(method, path, headers=["Expect: tea"])
+        walk.ask(method, path, headers=["Transfer-Encoding: gzip"])
+        walk.ask(method, path, headers=[f"X-{i}: 1" for i in range(120)])
+        walk.ask(method, path, query="?" + "a" * 9000)
+        walk.ask(method, path, version="HTTP/3.0")
+        if (method, path) != ("POST", "/v1/jobs"):
+            walk.ask(method, path, headers=["Content-Length: 2", "Content-Type: text/plain"])
+        if method != "HEAD":
+            waiting.append((method, path, walk.server.open(f"{method} {path.replace('{id}', NO_JOB)} HTTP/1.1\r\n".encode())))
+    for path in walk.contract.document["paths"]:
+        for method in ("GET", "POST", "PUT", "PATCH", "DELETE"):
+            if method.lower() not in walk.contract.document["paths"][path]:
+                walk.expect(405, "method_not_allowed", method, path)
+    for path in ("/", "/v1", "/v1/jobs/", "/v1/jobs/short"):
+        walk.expect(404, "not_found", "GET", path)
+    for method, path, _ in walk.contract.operations():
+        if "{id}" in path:
+            walk.ask(method, path, id="short")
+            walk.ask(method, path)
+    return waiting
+
+
+def walk_submissions(walk, example):
+    model, request = base64.b64decode(example["model"]["data"]), example["request"]
+    as_json = {"headers": ["Content-Type: application/json"], "body": json.dumps(example).encode()}
+    as_form = form((b"model", model), (b"request", json.dumps(request).encode()))
+    jobs = []
+    for submit in (lambda: walk.expect(202, None, "POST", "/v1/jobs", **as_form)["id"],
+                   lambda: walk.expect(202, None, "POST", "/v1/jobs", **as_json)["id"],
+                   lambda: walk.post(model, request)):
+        jobs.append(submit())
+        walk.wait_for(jobs[-1], "succeeded")
+    shown = walk.contract.document["components"]["schemas"]["FlattenResult"]["examples"][0]
+    for id in jobs:
+        result = walk.expect(200, None, "GET", "/v1/jobs/{id}/result", id=id)
+        if not is_near(result, shown):
+            walk.contract.complain("the example of FlattenResult", "the example request gives another result")
+    for kind, media_type in TYPES.items():
+        for method in ("GET", "HEAD"):
+            walk.expect(200, None, method, "/v1/jobs/{id}/result", id=jobs[0], query="?format=" + kind)
+            walk.expect(200, None, method, "/v1/jobs/{id}/result", id=jobs[0], headers=["Accept: " + media_type])
+    for method in ("GET", "HEAD"):
+        read = (lambda code: code) if method == "GET" else (lambda code: None)
+        walk.expect(400, read("format_unknown"), method, "/v1/jobs/{id}/result", id=jobs[0], query="?format=dxf")
+        walk.expect(406, read("not_acceptable"), method, "/v1/jobs/{id}/result", id=jobs[0], headers=["Accept: text/html"])
+        walk.expect(200, None, method, "/v1/jobs/{id}", id=jobs[0])
+        walk.expect(200, None, method, "/healthz")
+        walk.expect(200, None, method, "/openapi.json")
+    for method, path, _ in walk.contract.operations():
+        if method == "OPTIONS":
+            walk.expect(204, None, method, path)
+    walk.expect(409, "already_finished", "POST", "/v1/jobs/{id}/cancel", id=jobs[0])
+
+    refused = [("invalid_request", 422, form((b"model", model), (b"request", b'{"lock": []}'))),
+               ("invalid_request", 422, form((b"model", model), (b"request", b"{"))),
+               ("unsupported_request", 422, form((b"model", model), (b"request", b'{"method": {"name": "tutte"}}'))),
+               ("model_missing", 422, form((b"request", b"{}"))), ("model_missing", 422, {"body": b""}),
+               ("part_unknown", 400, form((b"model", model), (b"options", b"{}"))),
+               ("part_repeated", 400, form((b"model", model), (b"model", model))),
+               ("too_many_parts", 400, form(*[(b"model", b"")] * 17)),
+               ("bad_multipart", 400, {"headers": ["Content-Type: multipart/form-data"], "body": b"x"}),
+               ("header_invalid", 400, {"headers": ["X-Flatten-Constraints: {}"], "body": model}),
+               ("content_encoding_not_supported", 415, {"headers": ["Content-Encoding: gzip"], "body": model}),
+               ("bad_chunks", 400, {"headers": ["Transfer-Encoding: chunked\r\n\r\nzz\r\n"]})]
+    for code, status, what in refused:
+        walk.expect(status, code, "POST", "/v1/jobs", **what)
+    for model, request, code in ((b"hello", {}, "unreadable_model"), (b"ply\nformat ascii 1.0\n", {}, "unsupported_model"),
+                                 (model, {"cuts": ["none"]}, "curve_invalid"), (model, {"surface": {"groups": ["x"]}}, "group_not_found")):
+        id = walk.post(model, request)
+        job = walk.wait_for(id, "failed")
+        if job["error"]["code"] != code:
+            walk.contract.complain("a failed job", f"expected {code}, got {job['error']}")
+        walk.expect(409, code, "GET", "/v1/jobs/{id}/result", id=id)
+        walk.expect(409, None, "HEAD", "/v1/jobs/{id}/result", id=id)
+    return jobs[0]
+
+
+def walk_waiting(walk, finished):
+    """States that last: on a server with one worker and room for one job to wait."""
+    slow = bumpy_disk(120)
+    running = walk.post(slow)
+    walk.wait_for(running, "running")
+    waiting = walk.post(slow)
+    walk.expect(503, "queue_full", "POST", "/v1/jobs", body=slow)
+    walk.expect(200, None, "GET", "/v1/jobs/{id}", id=waiting)
+    walk.expect(409, "not_finished", "GET", "/v1/jobs/{id}/result", id=waiting)
+    walk.expect(409, None, "HEAD", "/v1/jobs/{id}/result", id=waiting)
+    walk.expect(200, None, "POST", "/v1/jobs/{id}/cancel", id=waiting)
+    walk.expect(409, "canceled", "GET", "/v1/jobs/{id}/result", id=waiting)
+    walk.expect(202, None, "POST", "/v1/jobs/{id}/cancel", id=running)
+    walk.wait_for(running, "canceled")
+    for id in (finished, waiting, running):
+        walk.expect(204, None, "DELETE", "/v1/jobs/{id}", id=id)
+    walk.expect(404, "job_not_found", "DELETE", "/v1/jobs/{id}", id=running)
+
+
+def walk_sample(walk, program):
+    """The real thing once: the sample last."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([program, "sample-last", "--out", folder], check=True)
+        model = pathlib.Path(folder, "last.obj").read_bytes()
+        request = json.loads(pathlib.Path(folder, "last.request.json").read_text())
+    walk.contract.check_value("the sample request", {"$ref": "#/components/schemas/FlattenRequest"}, request)
+    id = walk.post(model, request)
+    walk.wait_for(id, "succeeded")
+    walk.expect(200, None, "GET", "/v1/jobs/{id}/result", id=id)
+
+
+def main():
+    program = os.environ.get("LASTFLAT", "")
+    if not os.access(program, os.X_OK):
+        sys.exit("LASTFLAT must name the program to test, such as build/release/lastflat")
+    contract = Contract(json.loads((ROOT / "api" / "openapi.json").read_text()))
+    contract.check_itself()
+    server = Server(program, "--workers", "1", "--queue", "1")
+    try:
+        walk = Walk(server, contract)
+        waiting = walk_http(walk)
+        example = contract.document["components"]["schemas"]["JsonSubmission"]["examples"][0]
+        finished = walk_submissions(walk, example)
+        walk_sample(walk, program)
+        walk_waiting(walk, finished)
+        for method, path, connection in waiting:
+            contract.check(method, path, server.read(connection))
+        served = walk.expect(200, None, "GET", "/openapi.json")
+        if served != contract.document:
+            contract.complain("GET /openapi.json", "the server was built from another contract")
+    finally:
+        server.stop()
+
+    exercised = {(m, p) for m, p, _ in contract.seen}
+    for method, path, _ in contract.operations():
+        if (method, path) not in exercised:
+            contract.complain(f"{method} {path}", "never exercised")
+    missing = {}
+    for method, path, status in sorted(contract.declared() - contract.seen):
+        missing.setdefault(status, []).append(f"{method} {path}")
+    for status, operations in missing.items():
+        print(f"not provoked: {status} of {', '.join(operations)}")
+    print(f"{len(contract.seen)} of {len(contract.declared())} declared answers seen, {len(contract.faults)} faults")
+    sys.exit(1 if contract.faults else 0)
+
+
+if __name__ == "__main__":
+    main()

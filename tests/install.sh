@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# Installs what is missing, from Debian 12's packages alone. Usage: install.sh run|build|test ...
+#   run    what the program needs to run
+#   build  what it needs to be built
+#   test   what its tests, client examples and checks need beside that
+set -euo pipefail
+
+run=(libcpp-httplib0.11 libtinygltf2d libopenmesh1 libspdlog1.10 curl ca-certificates)
+build=(g++ cmake ninja-build pkg-config libeigen3-dev libopenmesh-dev libtinygltf-dev
+       nlohmann-json3-dev libcpp-httplib-dev libspdlog-dev libcli11-dev doctest-dev)
+test=(curl jq bats python3 python3-jsonschema procps clang-format-14 clang-tidy-14)
+
+wanted=()
+for set in "$@"; do
+    case "$set" in
+        run) wanted+=("${run[@]}") ;;
+        build) wanted+=("${build[@]}") ;;
+        test) wanted+=("${test[@]}") ;;
+        *) echo "install.sh: unknown set '$set' (run, build, test)" >&2; exit 2 ;;
+    esac
+done
+
+missing=()
+for package in "${wanted[@]}"; do
+    dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+as_root=()
+[ "$(id -u)" -eq 0 ] || as_root=(sudo)
+echo "installing: ${missing[*]}"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+export DEBIAN_FRONTEND=noninteractive
+if ! { "${as_root[@]}" apt-get update -qq &&
+       "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+    cat "$log" >&2
+    echo "install.sh: the packages could not be installed" >&2
+    exit 1
+fi
