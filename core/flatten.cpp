@@ -100,8 +100,9 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& options, Pro
     std::vector<Chart> charts;
     for (std::size_t r = 0; r < regions.size(); ++r) {
         charts.push_back(std::move(minima[r].chart));
-        std::move(starts[r].warnings.begin(), starts[r].warnings.end(),
-                  std::back_inserter(result.warnings));
+        for (auto* warnings : {&starts[r].warnings, &minima[r].warnings}) {
+            std::move(warnings->begin(), warnings->end(), std::back_inserter(result.warnings));
+        }
     }
     orient_charts(regions, charts);
     result.sheet = arrange_pair(regions, charts, options.layout_gap_mm);

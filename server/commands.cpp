@@ -29,7 +29,7 @@ api::Problem file_problem(int status, const std::string& detail) {
 
 std::optional<std::string> file_bytes(const fs::path& path) {
     std::error_code error;
-    if (!fs::is_regular_file(path, error)) return std::nullopt;
+    if (fs::is_directory(path, error)) return std::nullopt;
     std::ifstream file(path, std::ios::binary);
     if (!file) return std::nullopt;
     std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
@@ -43,17 +43,22 @@ using Files = std::vector<std::pair<std::string, std::string_view>>;
 void write_files(const fs::path& directory, const Files& files) {
     fs::create_directories(directory);
     const auto beside = [&](const std::string& name) { return directory / ("." + name + ".part"); };
+    std::vector<fs::path> made;
     try {
         for (const auto& [name, bytes] : files) {
+            made.push_back(beside(name));
             std::ofstream file(beside(name), std::ios::binary | std::ios::trunc);
             file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
             file.close();
             if (!file) throw std::runtime_error("cannot write " + (directory / name).string());
         }
-        for (const auto& [name, bytes] : files) fs::rename(beside(name), directory / name);
+        for (const auto& [name, bytes] : files) {
+            fs::rename(beside(name), directory / name);
+            made.push_back(directory / name);
+        }
     } catch (...) {
         std::error_code ignored;
-        for (const auto& [name, bytes] : files) fs::remove(beside(name), ignored);
+        for (const auto& path : made) fs::remove(path, ignored);
         throw;
     }
 }
@@ -71,7 +76,6 @@ std::string sample_request(const SampleLast& last) {
     nlohmann::ordered_json curves;
     for (const auto& [name, vertices] : last.curves) curves[name] = {{"vertices", vertices}};
     const nlohmann::ordered_json request{
-        {"units", "mm"},
         {"surface", {{"groups", {"upper"}}}},
         {"curves", curves},
         {"cuts", {"centre_front", "heel"}},

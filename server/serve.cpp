@@ -3,8 +3,11 @@
 #include <signal.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <iostream>
 
 #include "server/http/http.h"
@@ -14,6 +17,9 @@
 
 namespace lastflat::server {
 namespace {
+
+/// How long a cancelled job may take to notice: the longest stretch between two of its checks.
+constexpr std::chrono::seconds last_grace{5};
 
 /// SIGTERM and SIGINT wait for `sigwait` instead of ending the process; a client that hangs up is
 /// no reason to end either.
@@ -25,6 +31,14 @@ sigset_t block_signals() {
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     signal(SIGPIPE, SIG_IGN);
     return signals;
+}
+
+/// Waiting connections are many and cheap: take as many descriptors as the system gives.
+void raise_descriptor_limit() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+    limit.rlim_cur = limit.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &limit);
 }
 
 http::ServerLimits http_limits(const Settings& settings) {
@@ -43,6 +57,7 @@ std::string url_host(const std::string& host) {
 
 void serve(const Settings& settings) {
     const sigset_t signals = block_signals();
+    raise_descriptor_limit();
     spdlog::set_default_logger(spdlog::stderr_logger_mt("lastflat"));
     const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
     MemoryLimits memory;
@@ -76,7 +91,11 @@ void serve(const Settings& settings) {
     spdlog::info("ending: no new work, {} s for what runs", settings.grace_seconds);
     http.stop();
     listener.join();
-    workers.stop(std::chrono::seconds(settings.grace_seconds));
+    if (!workers.stop(std::chrono::seconds(settings.grace_seconds), last_grace)) {
+        spdlog::warn("a job did not notice that it was cancelled; it ends with the process");
+        spdlog::shutdown();
+        std::_Exit(failure ? 1 : 0);
+    }
     if (failure) std::rethrow_exception(failure);
 }
 

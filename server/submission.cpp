@@ -1,5 +1,8 @@
 #include "server/submission.h"
 
+#include <algorithm>
+#include <thread>
+
 #include "api/base64.h"
 #include "api/flatten_request.h"
 #include "server/translate.h"
@@ -13,8 +16,10 @@ namespace {
 
 JobInput job_input(std::string model, const api::FlattenRequest& request) {
     if (model.empty()) refuse(422, "model_missing", "the model is empty (0 bytes)");
-    return {std::make_shared<const std::string>(std::move(model)), to_options(request),
-            request.tag};
+    JobInput input{std::make_shared<const std::string>(std::move(model)), to_options(request),
+                   request.tag};
+    input.options.threads = std::max(1u, std::thread::hardware_concurrency());
+    return input;
 }
 
 JobInput from_parts(const http::Request& request) {
@@ -50,10 +55,17 @@ JobInput from_model_alone(const http::Request& request) {
                      api::flatten_request_from_json(*constraints));
 }
 
+bool is_form(const http::Request& request) {
+    constexpr std::string_view form = "multipart/form-data";
+    const std::string_view type = request.header("content-type").substr(0, form.size());
+    return std::equal(type.begin(), type.end(), form.begin(), form.end(),
+                      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; });
+}
+
 }  // namespace
 
 JobInput read_submission(const http::Request& request) {
-    if (!request.body.empty() && !request.body.front().name.empty()) return from_parts(request);
+    if (is_form(request)) return from_parts(request);
     if (!request.body.empty() && request.body.front().media_type == "application/json") {
         auto submission = api::json_submission_from_json(request.body.front().bytes);
         return job_input(std::move(submission.model), submission.request);

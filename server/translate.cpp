@@ -17,14 +17,21 @@ double millimetres(api::Unit unit) {
     return 1.0;
 }
 
-std::string form_name(api::CurveForm form) {
-    switch (form) {
-        case api::CurveForm::vertices: return {};
-        case api::CurveForm::polyline: return "polyline";
-        case api::CurveForm::geodesic: return "from";
-        case api::CurveForm::border_of: return "border_of";
+CurveSource curve_of(const api::CurveRequest& curve) {
+    const auto refuse = [&](const char* form) {
+        throw Error(ErrorCode::unsupported_request,
+                    "curve '" + curve.name + "' is given as \"" + form +
+                        "\", which is not in this version; give it as \"vertices\", a path of "
+                        "mesh vertices")
+            .at_option({"curves", curve.name, form});
+    };
+    switch (curve.form) {
+        case api::CurveForm::vertices: break;
+        case api::CurveForm::polyline: refuse("polyline"); break;
+        case api::CurveForm::geodesic: refuse("from"); break;
+        case api::CurveForm::border_of: refuse("border_of"); break;
     }
-    return {};
+    return {curve.name, curve.vertices};
 }
 
 MethodOptions method_of(const api::MethodRequest& request) {
@@ -129,9 +136,7 @@ FlattenOptions to_options(const api::FlattenRequest& request) {
     if (request.units) options.weld.unit_mm = millimetres(*request.units);
     options.weld.groups = request.surface_groups;
     options.weld.tolerance_mm = request.weld_tolerance_mm;
-    for (const auto& curve : request.curves) {
-        options.curves.push_back({curve.name, curve.vertices, form_name(curve.form)});
-    }
+    for (const auto& curve : request.curves) options.curves.push_back(curve_of(curve));
     options.cut.cuts = request.cuts;
     for (const auto& region : request.regions) {
         RegionChoice choice{region.name, {}, {}};

@@ -58,6 +58,8 @@ public:
     [[nodiscard]] const Eigen::VectorXd& residual() const { return residual_; }
     [[nodiscard]] double energy() const { return energy_; }
     [[nodiscard]] int iterations() const { return iterations_; }
+    /// The decrease of the merit function that the last step's model promised.
+    [[nodiscard]] double promised() const { return promised_; }
 
 private:
     [[nodiscard]] double merit(const Eigen::VectorXd& x) const {
@@ -86,7 +88,8 @@ private:
         energy_ = distortion_.value(x);
         residual_ = system_.residual(x);
         near_ = t == 1.0;
-        return {-0.5 * slope, t};
+        promised_ = -0.5 * slope;
+        return {promised_, t};
     }
 
     /// Moves x along d as far as the merit function falls; returns the step length.
@@ -120,10 +123,20 @@ private:
     const Progress& progress_;
     OptimalitySystem system_;
     Eigen::VectorXd multipliers_, residual_;
-    double energy_ = 0.0, penalty_ = 0.0;
+    double energy_ = 0.0, penalty_ = 0.0, promised_ = 0.0;
     int iterations_ = 0;
     bool near_ = false;
 };
+
+Warning not_converged(const Region& region, const ConstrainedNewton& newton) {
+    char decrease[48];
+    std::snprintf(decrease, sizeof decrease, "%.2g", newton.promised() / newton.energy());
+    return {"not_converged",
+            "region '" + region.name + "' is sound but not at its minimum after " +
+                std::to_string(newton.iterations()) +
+                " Newton steps: its distortion could still fall by a share of " + decrease,
+            std::nullopt};
+}
 
 [[noreturn]] void fail_infeasible(const Region& region,
                                   const std::vector<LengthConstraint>& constraints,
@@ -133,7 +146,7 @@ private:
     const auto& constraint = constraints[static_cast<std::size_t>(worst)];
     const Vec3& position = region.position(constraint.edges.front().first);
     char amount[48];
-    std::snprintf(amount, sizeof amount, "%.4f mm", residual[worst]);
+    std::snprintf(amount, sizeof amount, "%.3g mm", residual[worst]);
     throw Error(ErrorCode::constraints_infeasible,
                 "region '" + region.name +
                     "': the locked lengths cannot all be kept; furthest off "
@@ -186,14 +199,10 @@ Minimum minimise_distortion(const Region& region, const Chart& start,
     }
     ConstrainedNewton newton(region, constraints, distortion, progress);
     const bool converged = newton.run(x, tolerance::newton_decrease, 0.0);
-    if (newton.worst_length_error() > tolerance::solver_length) {
+    if (newton.worst_length_error() > tolerance::locked_length) {
         fail_infeasible(region, constraints, newton.residual());
     }
-    if (!converged) {
-        throw Error(ErrorCode::solver_failed, "region '" + region.name + "': no minimum after " +
-                                                  std::to_string(newton.iterations()) +
-                                                  " Newton steps");
-    }
+    if (!converged) result.warnings.push_back(not_converged(region, newton));
     result.chart.uv = points_of(x);
     result.iterations += newton.iterations();
     result.energy = newton.energy() / distortion.total_area();

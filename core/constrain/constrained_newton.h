@@ -13,6 +13,7 @@ struct Minimum {
     int iterations = 0;               ///< Newton steps, approach and locked phase together
     double energy = 0.0;              ///< mean density over the surface
     double worst_length_error = 0.0;  ///< of a constraint, as a share of its length
+    std::vector<Warning> warnings{};
 };
 
 /// Minimises the distortion of a chart subject to the length constraints: sequential quadratic
@@ -24,7 +25,9 @@ struct Minimum {
 /// In:     a start without flipped triangles; scale does not matter.
 /// Out:    a local minimum without flipped triangles: the step still promised decreases the energy
 ///         by less than `tolerance::newton_decrease`, every length is kept to
-///         `tolerance::solver_length`. One answer for one input, whatever the number of threads.
+///         `tolerance::solver_length`. Where that is out of reach (needles, very slender shapes), a
+///         chart without flips and with every length kept to `tolerance::locked_length`, and the
+///         warning `not_converged`. One answer for one input, whatever the number of threads.
 /// Throws: Error{method_failed} if the start is folded; Error{constraints_infeasible} naming the
 ///         worst curve if the lengths cannot all be reached; Error{solver_failed};
 ///         Error{cancelled}.

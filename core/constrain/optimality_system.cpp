@@ -3,6 +3,8 @@
 #include "core/constrain/optimality_system.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "core/error.h"
 #include "core/numerics/tolerances.h"
@@ -59,6 +61,22 @@ SparseMatrix pattern(const Region& region, const std::vector<LengthConstraint>& 
     return matrix;
 }
 
+/// Three coordinates that hold the chart in place: both of one vertex, and of the vertex furthest
+/// from it the one across the line between them. A rigid motion costs nothing, so holding it takes
+/// nothing from the step; left free, its curvature away from the minimum may be negative.
+std::array<Index, 3> pinned_coordinates(const Eigen::VectorXd& x) {
+    Index far = 0;
+    double largest = -1.0;
+    for (Index v = 1; 2 * v < x.size(); ++v) {
+        const double distance = (x.segment<2>(2 * v) - x.head<2>()).squaredNorm();
+        if (distance <= largest) continue;
+        largest = distance;
+        far = v;
+    }
+    const Vec2 between = (x.segment<2>(2 * far) - x.head<2>()).cwiseAbs();
+    return {0, 1, 2 * far + (between.x() > between.y() ? 1 : 0)};
+}
+
 }  // namespace
 
 OptimalitySystem::OptimalitySystem(const Region& region,
@@ -113,30 +131,49 @@ void OptimalitySystem::add_constraint(Index row, const Eigen::VectorXd& x, doubl
     }
 }
 
-void OptimalitySystem::fill(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
-                            HessianKind kind) {
+double OptimalitySystem::fill(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
+                              HessianKind kind) {
     std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
     gradient_ = distortion_.differentiate(x, kind, matrix_);
     double trace = 0.0;
     for (Index i = 0; i < unknowns_; ++i) trace += entry(i, i);
     const double mean = trace / unknowns_;
-    for (Index i = 0; i < unknowns_; ++i) entry(i, i) += tolerance::rigid_motion * mean;
+    for (const Index i : pinned_coordinates(x)) entry(i, i) += tolerance::pin * mean;
     regularisation_ = tolerance::multiplier_regularisation / mean;
     for (Index k = 0; k < static_cast<Index>(constraints_.size()); ++k) {
         add_constraint(unknowns_ + k, x, multipliers[k], kind);
         entry(unknowns_ + k, unknowns_ + k) = -regularisation_;
     }
+    return mean;
+}
+
+void OptimalitySystem::shift_diagonal(double amount) {
+    for (Index i = 0; i < unknowns_; ++i) entry(i, i) += amount;
+}
+
+bool OptimalitySystem::has_right_inertia() {
+    return solver_.factor(matrix_) &&
+           solver_.negative_pivots() == static_cast<Index>(constraints_.size());
 }
 
 void OptimalitySystem::factor(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
                               HessianKind kind) {
-    for (const HessianKind attempt : {kind, HessianKind::projected}) {
-        fill(x, multipliers, attempt);
-        if (solver_.factor(matrix_) &&
-            solver_.negative_pivots() == static_cast<Index>(constraints_.size())) {
-            return;
+    // A shift of the diagonal shortens the step but moves no minimum. An exact Hessian may need
+    // much of it where a locked curve is about to buckle, a projected one only against round-off.
+    static constexpr std::array exact_shifts{tolerance::rigid_motion, 1e-4, 1e-3, 1e-2, 1e-1};
+    static constexpr std::array projected_shifts{tolerance::rigid_motion, 1e-7, 1e-5, 1e-3};
+    const auto attempt = [&](HessianKind attempted, std::span<const double> shifts) {
+        const double mean = fill(x, multipliers, attempted);
+        double shifted = 0.0;
+        for (const double shift : shifts) {
+            shift_diagonal((shift - shifted) * mean);
+            shifted = shift;
+            if (has_right_inertia()) return true;
         }
-    }
+        return false;
+    };
+    if (kind == HessianKind::exact && attempt(HessianKind::exact, exact_shifts)) return;
+    if (attempt(HessianKind::projected, projected_shifts)) return;
     throw Error(ErrorCode::solver_failed, "a Newton step could not be computed");
 }
 

@@ -18,7 +18,8 @@ public:
     [[nodiscard]] Eigen::VectorXd residual(const Eigen::VectorXd& x) const;
 
     /// Fills and factors the system at x. An exact Hessian that is not positive definite along the
-    /// constraints is replaced by the projected one.
+    /// constraints is shifted until it is or, failing that, replaced by the projected one.
+    /// Throws: Error{solver_failed} if no shift helps.
     void factor(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers, HessianKind kind);
 
     /// The gradient of the distortion where the system was factored.
@@ -29,7 +30,10 @@ public:
                                         const Eigen::VectorXd& bottom) const;
 
 private:
-    void fill(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers, HessianKind kind);
+    /// Returns the mean of the Hessian's diagonal.
+    double fill(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers, HessianKind kind);
+    void shift_diagonal(double amount);
+    [[nodiscard]] bool has_right_inertia();
     void add_constraint(Index row, const Eigen::VectorXd& x, double multiplier, HessianKind kind);
     double& entry(Index row, Index column);
 

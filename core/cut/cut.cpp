@@ -1,6 +1,7 @@
 #include "core/cut/cut.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/cut/check_disk.h"
 #include "core/cut/curve_runs.h"
@@ -10,6 +11,12 @@ namespace lastflat {
 namespace {
 
 using Mesh = TriMesh;
+
+/// More pieces than this are no pattern but a broken model (vertices that are not shared).
+constexpr Index max_default_regions = 64;
+
+/// A place that is meant to be in a region is near it.
+constexpr double max_choice_distance_mm = 50.0;
 
 /// Per edge of the mesh, whether the surface is opened there.
 std::vector<bool> opened_edges(const SurfaceMesh& surface, const Curves& curves,
@@ -35,8 +42,9 @@ std::vector<bool> opened_edges(const SurfaceMesh& surface, const Curves& curves,
 /// Corner ids: three per face, in the order of the face's halfedges' target vertices.
 struct Pieces {
     std::vector<Index> piece_of_face;
-    std::vector<std::array<Index, 3>> face_vertices;  ///< mesh vertices
-    std::vector<Index> corner_sets;                   ///< per corner, its fan
+    std::vector<std::vector<std::size_t>> faces_of_piece;  ///< ascending
+    std::vector<std::array<Index, 3>> face_vertices;       ///< mesh vertices
+    std::vector<Index> corner_sets;                        ///< per corner, its fan
     Index count = 0;
 };
 
@@ -69,8 +77,12 @@ Pieces split(const Mesh& mesh, const std::vector<bool>& open) {
     for (const auto face : mesh.faces()) {
         const auto f = static_cast<std::size_t>(face.idx());
         const auto set = static_cast<std::size_t>(face_sets.find(face.idx()));
-        if (piece_of_set[set] < 0) piece_of_set[set] = pieces.count++;
+        if (piece_of_set[set] < 0) {
+            piece_of_set[set] = pieces.count++;
+            pieces.faces_of_piece.emplace_back();
+        }
         pieces.piece_of_face[f] = piece_of_set[set];
+        pieces.faces_of_piece[static_cast<std::size_t>(piece_of_set[set])].push_back(f);
         std::size_t i = 0;
         for (const auto v : mesh.fv_range(face)) {
             pieces.face_vertices[f][i] = v.idx();
@@ -120,6 +132,11 @@ Index chosen_piece(const SurfaceMesh& surface, const Pieces& pieces, const Regio
     Index vertex = choice.vertex.value_or(-1);
     if (choice.position) {
         vertex = nearest_vertex(surface, *choice.position);
+        const double distance = (surface.position(vertex) - *choice.position).norm();
+        if (distance > max_choice_distance_mm) {
+            fail_choice(choice, "the position is " + std::to_string(std::lround(distance)) +
+                                    " mm away from the surface; are the units right?");
+        }
     } else if (!surface.is_on_surface(vertex)) {
         fail_choice(choice, "vertex " + std::to_string(vertex) + " is not on the selected faces");
     }
@@ -139,8 +156,7 @@ Region extract(const SurfaceMesh& surface, const Pieces& pieces, Index piece) {
     };
     std::vector<Corner> corners;
     Region region;
-    for (std::size_t f = 0; f < pieces.piece_of_face.size(); ++f) {
-        if (pieces.piece_of_face[f] != piece) continue;
+    for (const std::size_t f : pieces.faces_of_piece[static_cast<std::size_t>(piece)]) {
         for (std::size_t i = 0; i < 3; ++i) {
             corners.push_back({pieces.face_vertices[f][i], pieces.corner_sets[3 * f + i],
                                3 * region.triangles.size() + i});
@@ -181,6 +197,12 @@ std::vector<Region> cut_into_regions(const SurfaceMesh& surface, const Curves& c
         chosen.push_back(piece);
     }
     if (choices.empty()) {
+        if (pieces.count > max_default_regions) {
+            throw Error(ErrorCode::region_invalid,
+                        "the surface falls into " + std::to_string(pieces.count) +
+                            " pieces; name those that are meant in \"regions\"")
+                .at_option({"regions"});
+        }
         for (Index piece = 0; piece < pieces.count; ++piece) {
             chosen.push_back(piece);
             choices.push_back({"region_" + std::to_string(piece + 1), {}, {}});

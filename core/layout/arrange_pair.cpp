@@ -69,6 +69,15 @@ std::vector<double> profile(const Points2& outline, double cell, std::size_t cel
     return y;
 }
 
+/// 1 mm, or coarser where a piece is so large that its profile would have too many cells.
+double profile_cell(const std::vector<Chart>& charts) {
+    double largest = 0.0;
+    for (const Chart& chart : charts) {
+        for (const Vec2& p : chart.uv) largest = std::max(largest, p.x());
+    }
+    return std::max(1.0, largest / 4096.0);
+}
+
 }  // namespace
 
 Vec2 Placement::apply(const Vec2& point) const {
@@ -81,13 +90,13 @@ Sheet arrange_pair(const std::vector<Region>& regions, const std::vector<Chart>&
                    double gap) {
     Sheet sheet;
     const auto mirrored = mirrored_regions(regions, charts);
-    constexpr double cell = 1.0;  // mm
+    const double cell = profile_cell(charts);
     std::vector<double> ceiling;  // of what lies on the sheet already
     for (std::size_t r = 0; r < regions.size(); ++r) {
         Placement placement{mirrored[r], 0.0, Vec2::Zero()};
         Eigen::AlignedBox2d box;
         for (const Vec2& p : placed_outline(regions[r], charts[r], placement)) box.extend(p);
-        placement.translation = -box.min();
+        placement.translation = Vec2::Zero() - box.min();
         const Points2 outline = placed_outline(regions[r], charts[r], placement);
         const auto cells = static_cast<std::size_t>(box.sizes().x() / cell) + 1;
         const auto floor = profile(outline, cell, cells, -1.0);

@@ -29,14 +29,18 @@ bool is_binary_stl(std::string_view bytes) {
     return bytes.size() == 84 + count * 50;
 }
 
+bool is_text_stl(std::string_view bytes) {
+    constexpr std::string_view word = "solid";
+    return starts_with(bytes, word) && bytes.size() > word.size() &&
+           std::string_view(" \t\r\n").find(bytes[word.size()]) != std::string_view::npos;
+}
+
 /// The name of a known format that is not read, or nothing.
 std::string_view unread_format(std::string_view bytes) {
     if (starts_with(bytes, "\xFF\xFE") || starts_with(bytes, "\xFE\xFF")) return "UTF-16 text";
     if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return "PLY";
     if (starts_with(bytes, "OFF") || starts_with(bytes, "COFF")) return "OFF";
-    if (is_binary_stl(bytes) || starts_with(bytes, "solid ") || starts_with(bytes, "solid\n")) {
-        return "STL";
-    }
+    if (is_binary_stl(bytes) || is_text_stl(bytes)) return "STL";
     if (starts_with(bytes, "PK\x03\x04")) return "ZIP";
     if (starts_with(bytes, "\x1F\x8B")) return "gzip";
     if (starts_with(bytes, "ISO-10303-21")) return "STEP";

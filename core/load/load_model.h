@@ -13,10 +13,11 @@ namespace lastflat {
 struct LoadLimits {
     std::size_t vertices = 4'000'000;
     std::size_t triangles = 4'000'000;
-    std::size_t polygon_corners = 4096;  ///< of one OBJ face
+    std::size_t polygon_corners = 1024;  ///< of one OBJ face
     std::size_t name_bytes = 256;        ///< of one group name
-    std::size_t group_names = 4096;
-    std::size_t json_depth = 64;  ///< nesting inside glTF
+    std::size_t face_names = 64;         ///< of one face
+    std::size_t name_sets = 4096;        ///< different sets of names
+    std::size_t json_depth = 64;         ///< nesting inside glTF
 };
 
 /// Reads a model: Wavefront OBJ, glTF 2.0 or binary glTF (GLB). The content decides the format.

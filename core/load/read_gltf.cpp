@@ -100,7 +100,7 @@ double read_component(const Elements& elements, std::size_t element, std::size_t
 class SceneReader {
 public:
     SceneReader(const tinygltf::Model& model, const LoadLimits& limits)
-        : model_(model), limits_(limits) {}
+        : model_(model), limits_(limits), on_path_(model.nodes.size(), false) {}
 
     RawMesh read() {
         mesh_.default_unit_mm = 1000.0;
@@ -152,10 +152,13 @@ private:
     void read_node(int index, const Eigen::Affine3d& parent, std::vector<std::string> names,
                    std::size_t depth) {
         const auto& node = item(model_.nodes, index, "node");
-        if (depth > limits_.json_depth || ++visits_ > max_visits) {
-            fail("node " + std::to_string(index) +
-                 " is its own descendant, or the scene is too deep");
+        if (on_path_[static_cast<std::size_t>(index)]) {
+            fail("node " + std::to_string(index) + " is its own descendant");
         }
+        if (depth > limits_.json_depth || ++visits_ > max_visits) {
+            fail("the scene has too many levels or nodes", ErrorCode::model_too_large);
+        }
+        on_path_[static_cast<std::size_t>(index)] = true;
         add_name(names, node.name);
         const Eigen::Affine3d transform = parent * transform_of(node);
         if (node.mesh >= 0) {
@@ -171,6 +174,7 @@ private:
             }
         }
         for (const int child : node.children) read_node(child, transform, names, depth + 1);
+        on_path_[static_cast<std::size_t>(index)] = false;
     }
 
     void add_name(std::vector<std::string>& names, const std::string& name) const {
@@ -178,17 +182,27 @@ private:
             fail("a name is longer than " + std::to_string(limits_.name_bytes) + " bytes",
                  ErrorCode::model_too_large);
         }
-        if (!name.empty()) names.push_back(name);
+        if (name.empty()) return;
+        if (names.size() >= limits_.face_names) {
+            fail("a face has more than " + std::to_string(limits_.face_names) + " names",
+                 ErrorCode::model_too_large);
+        }
+        names.push_back(name);
     }
 
     void read_primitive(const tinygltf::Primitive& primitive, const Eigen::Affine3d& transform,
                         const std::vector<std::string>& labels) {
         const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+        spend(1);
+        if (mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+            fail("the primitive mode " + std::to_string(mode) + " does not exist");
+        }
         if (mode < TINYGLTF_MODE_TRIANGLES) return;  // points and lines have no surface
         const auto position = primitive.attributes.find("POSITION");
         if (position == primitive.attributes.end()) fail("a primitive has no POSITION");
         const auto [base, count] = read_positions(position->second, transform);
         const auto corners = read_corners(primitive.indices, base, count);
+        spend(corners.size());
         const std::uint32_t label = label_of(labels);
         const bool mirrored = transform.linear().determinant() < 0.0;
         const std::size_t step = mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
@@ -268,10 +282,25 @@ private:
         return corners;
     }
 
+    /// Counts work that leaves no trace in the mesh: primitives without triangles, strips of
+    /// repeated vertices, shared accessors read again and again.
+    void spend(std::size_t work) {
+        work_ += work;
+        if (work_ > 4 * limits_.triangles) {
+            fail("the scene repeats its primitives too often", ErrorCode::model_too_large);
+        }
+    }
+
     std::uint32_t label_of(const std::vector<std::string>& names) {
         const auto next = static_cast<std::uint32_t>(mesh_.label_sets.size());
         const auto [found, is_new] = known_labels_.try_emplace(names, next);
-        if (is_new) mesh_.label_sets.push_back(names);
+        if (is_new) {
+            if (next >= limits_.name_sets) {
+                fail("more than " + std::to_string(limits_.name_sets) + " sets of names",
+                     ErrorCode::model_too_large);
+            }
+            mesh_.label_sets.push_back(names);
+        }
         return found->second;
     }
 
@@ -279,9 +308,10 @@ private:
     const tinygltf::Model& model_;
     LoadLimits limits_;
     RawMesh mesh_;
+    std::vector<bool> on_path_;   ///< per node, whether it is being read
     std::map<int, Index> bases_;  ///< of the node at hand: accessor to first vertex id
     std::map<std::vector<std::string>, std::uint32_t> known_labels_;
-    std::size_t visits_ = 0;
+    std::size_t visits_ = 0, work_ = 0;
     bool any_indices_ = false;
 };
 

@@ -148,6 +148,9 @@ private:
     std::vector<std::string> read_names(std::string_view line) const {
         std::vector<std::string> names;
         for (auto word = next_word(line); !word.empty(); word = next_word(line)) {
+            if (names.size() >= limits_.face_names) {
+                too_large("names of a face", limits_.face_names);
+            }
             names.push_back(checked_name(word));
         }
         return names;
@@ -167,8 +170,8 @@ private:
         const auto next = static_cast<std::uint32_t>(mesh_.label_sets.size());
         const auto [found, is_new] = known_labels_.try_emplace(names, next);
         if (is_new) {
-            if (mesh_.label_sets.size() >= limits_.group_names) {
-                too_large("groups", limits_.group_names);
+            if (mesh_.label_sets.size() >= limits_.name_sets) {
+                too_large("groups", limits_.name_sets);
             }
             mesh_.label_sets.push_back(std::move(names));
         }

@@ -1,6 +1,7 @@
 #include "core/load/triangulate_polygon.h"
 
 #include <Eigen/Geometry>
+#include <array>
 
 #include "core/numerics/polygon.h"
 
@@ -21,20 +22,56 @@ bool inside(const Vec2& p, const Vec2& a, const Vec2& b, const Vec2& c) {
     return doubled_area(a, b, p) >= 0 && doubled_area(b, c, p) >= 0 && doubled_area(c, a, p) >= 0;
 }
 
-/// The shape of the ear at corner i: the larger the better, not positive if it is no ear.
-double ear_quality(const Points2& flat, const std::vector<std::size_t>& left, std::size_t i) {
-    const std::size_t n = left.size();
-    const std::size_t before = left[(i + n - 1) % n], here = left[i], after = left[(i + 1) % n];
-    const Vec2 &a = flat[before], &b = flat[here], &c = flat[after];
-    const double area = doubled_area(a, b, c);
-    if (area <= 0.0) return 0.0;
-    for (const std::size_t other : left) {
-        if (other != before && other != here && other != after && inside(flat[other], a, b, c)) {
-            return 0.0;
-        }
+/// A polygon in its plane that loses its ears one by one; the ears left are kept up to date.
+class EarClipper {
+public:
+    explicit EarClipper(Points2 flat) : flat_(std::move(flat)), quality_(flat_.size()) {
+        for (std::size_t i = 0; i < flat_.size(); ++i) left_.push_back(i);
+        for (std::size_t i = 0; i < left_.size(); ++i) quality_[left_[i]] = quality_at(i);
     }
-    return area / (c - a).squaredNorm();  // height over the cut: large for short diagonals
-}
+    [[nodiscard]] std::size_t size() const { return left_.size(); }
+
+    /// Cuts off the best ear, or any corner if there is none; returns its three corners.
+    std::array<std::size_t, 3> clip() {
+        std::size_t ear = 0;
+        for (std::size_t i = 1; i < left_.size(); ++i) {
+            if (quality_[left_[i]] > quality_[left_[ear]]) ear = i;
+        }
+        const std::array<std::size_t, 3> corners{corner(ear, -1), corner(ear, 0), corner(ear, 1)};
+        left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(ear));
+        if (left_.size() > 3) {  // only the neighbours' ears change, unless a blocker went
+            const std::size_t n = left_.size();
+            for (const std::size_t i : {(ear + n - 1) % n, ear % n})
+                quality_[left_[i]] = quality_at(i);
+        }
+        return corners;
+    }
+
+private:
+    [[nodiscard]] std::size_t corner(std::size_t i, int step) const {
+        const std::size_t n = left_.size();
+        return left_[(i + n + static_cast<std::size_t>(step + 1) - 1) % n];
+    }
+
+    /// Height of the ear over its cut, as a share: large for short diagonals, 0 for no ear.
+    [[nodiscard]] double quality_at(std::size_t i) const {
+        const std::size_t before = corner(i, -1), here = corner(i, 0), after = corner(i, 1);
+        const Vec2 &a = flat_[before], &b = flat_[here], &c = flat_[after];
+        const double area = doubled_area(a, b, c);
+        if (area <= 0.0) return 0.0;
+        for (const std::size_t other : left_) {
+            if (other != before && other != here && other != after &&
+                inside(flat_[other], a, b, c)) {
+                return 0.0;
+            }
+        }
+        return area / (c - a).squaredNorm();
+    }
+
+    Points2 flat_;
+    std::vector<std::size_t> left_;
+    std::vector<double> quality_;
+};
 
 }  // namespace
 
@@ -52,29 +89,16 @@ std::vector<Triangle> triangulate_polygon(const Points3& positions,
     const Vec3 x = normal.unitOrthogonal();
     const Vec3 y = normal.cross(x);
     Points2 flat;
-    std::vector<std::size_t> left;
     for (const Index corner : loop) {
         const Vec3 p = positions[static_cast<std::size_t>(corner)] -
                        positions[static_cast<std::size_t>(loop[0])];
-        left.push_back(flat.size());
         flat.emplace_back(p.dot(x), p.dot(y));
     }
+    EarClipper clipper(std::move(flat));
     std::vector<Triangle> triangles;
-    while (left.size() > 2) {
-        std::size_t ear = 0;
-        double best = 0.0;
-        for (std::size_t i = 0; i < left.size(); ++i) {
-            const double quality = ear_quality(flat, left, i);
-            if (quality > best) {
-                best = quality;
-                ear = i;
-            }
-            if (best > 0.0 && left.size() > 64) break;  // any ear will do in very large polygons
-        }
-        const std::size_t n = left.size();
-        triangles.push_back(
-            {loop[left[(ear + n - 1) % n]], loop[left[ear]], loop[left[(ear + 1) % n]]});
-        left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
+    while (clipper.size() > 2) {
+        const auto ear = clipper.clip();
+        triangles.push_back({loop[ear[0]], loop[ear[1]], loop[ear[2]]});
     }
     return triangles;
 }

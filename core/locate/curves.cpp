@@ -53,13 +53,6 @@ void check_edge(const SurfaceMesh& surface, const CurveSource& source, std::size
 }
 
 Curve located(const SurfaceMesh& surface, const CurveSource& source) {
-    if (!source.unread_form.empty()) {
-        throw Error(ErrorCode::unsupported_request,
-                    "curve '" + source.name + "' is given as \"" + source.unread_form +
-                        "\", which this version does not read; give it as \"vertices\", a path of "
-                        "mesh vertices")
-            .at_option({"curves", source.name, source.unread_form});
-    }
     if (source.vertices.size() < 2) fail(source, 0, "a curve needs two vertices");
     Curve curve{source.name, {}};
     std::set<Index> seen;

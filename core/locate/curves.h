@@ -13,8 +13,6 @@ namespace lastflat {
 struct CurveSource {
     std::string name;
     std::vector<Index> vertices;  ///< ids of the file
-    /// Another form of the contract that this version does not read ("polyline", ...), or empty.
-    std::string unread_form;
 };
 
 /// A path along edges of the surface; closed if the first vertex is also the last.
@@ -30,7 +28,7 @@ using Curves = std::vector<Curve>;
 ///
 /// Throws: Error{curve_invalid} naming the curve, the item and the place, if an id does not exist
 ///         or is not on the selected faces, if two consecutive vertices share no edge, or if the
-///         path meets itself other than by closing. Error{unsupported_request} for other forms.
+///         path meets itself other than by closing.
 [[nodiscard]] Curves locate_curves(const SurfaceMesh& surface,
                                    const std::vector<CurveSource>& sources);
 

@@ -4,8 +4,11 @@
 namespace lastflat::tolerance {
 
 /// A triangle whose smallest height is below this share of its longest edge has no usable shape:
-/// cotangents and rest frames lose all digits.
-inline constexpr double degenerate_height = 1e-9;
+/// cotangents and rest frames lose most digits, and Newton's method the rest.
+inline constexpr double degenerate_height = 1e-6;
+
+/// Coordinates beyond this many mm are no last, and their squares soon are no numbers.
+inline constexpr double largest_coordinate_mm = 1e6;
 
 /// A locked length that is off by more than this share of itself has not been kept
 /// (design: pass at 1e-6). The solver aims at `solver_length`.
@@ -17,8 +20,12 @@ inline constexpr double solver_length = 1e-11;
 inline constexpr double newton_decrease = 1e-13;
 
 /// Added to the diagonal of a Hessian, as a share of its mean: a rigid motion costs no energy, so
-/// the Hessian alone is singular in three directions.
+/// the Hessian alone is singular in three directions. The least of the shifts that are tried.
 inline constexpr double rigid_motion = 1e-9;
+
+/// Added to the diagonal of the three coordinates that hold a chart in place, as a multiple of the
+/// mean: large enough to hold them, small enough to keep the others' digits.
+inline constexpr double pin = 1e4;
 
 /// Subtracted from the diagonal of the multipliers, so that the optimality system is
 /// quasi-definite and can be factored in any order (Vanderbei 1995). Refinement removes its trace.

@@ -90,6 +90,17 @@ void check_shapes(const Points3& positions, const std::vector<Triangle>& triangl
     }
 }
 
+void check_coordinates(const Points3& positions) {
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        const Vec3& p = positions[v];
+        if (p.allFinite() && p.cwiseAbs().maxCoeff() <= tolerance::largest_coordinate_mm) continue;
+        throw Error(ErrorCode::mesh_degenerate,
+                    "vertex " + std::to_string(v) +
+                        " lies more than a kilometre away; are the units right?")
+            .at_option({"units"});
+    }
+}
+
 double signed_volume(const Points3& positions, const std::vector<Triangle>& triangles) {
     double volume = 0.0;
     const Vec3 origin = positions[static_cast<std::size_t>(triangles.front()[0])];
@@ -129,6 +140,7 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options) {
                    [unit](const Vec3& p) -> Vec3 { return unit * p; });
 
     auto triangles = selected_triangles(raw, options.groups);
+    check_coordinates(positions);
     auto all = raw.triangles;
     if (options.tolerance_mm || !raw.indexed) {
         result.welded_to = merge_vertices(positions, options.tolerance_mm.value_or(0.0));

@@ -213,7 +213,8 @@ void ConnectionGate::hand_on(Connection& connection, std::size_t head_size) {
     answer(connection, *reply);
 }
 
-void ConnectionGate::refuse(Connection& connection, const Refusal& refusal) {
+void ConnectionGate::refuse(Connection& connection, Refusal refusal) {
+    if (asks_for_head_only(connection.bytes)) refusal.without_body();
     answer(connection, write_refusal_(refusal));
 }
 

@@ -72,7 +72,7 @@ private:
     void on_ready(Connection& connection);
     void read_head(Connection& connection);
     void hand_on(Connection& connection, std::size_t head_size);
-    void refuse(Connection& connection, const Refusal& refusal);
+    void refuse(Connection& connection, Refusal refusal);
     void answer(Connection& connection, const std::string& bytes);
     void drain(Connection& connection);
     void drop(Connection& connection);

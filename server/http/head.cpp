@@ -280,13 +280,12 @@ std::optional<std::size_t> head_length(std::string_view bytes, std::size_t searc
 }
 
 Head vet_head(std::string_view raw, const RouteTable& routes, const ServerLimits& limits) {
-    const auto lines = split_lines(raw, limits.head_lines);
-    if (lines.empty()) check_version("");
-    const RequestLine line = parse_request_line(lines[0]);
     try {
-        return read_head(line, lines, routes, limits);
+        const auto lines = split_lines(raw, limits.head_lines);
+        if (lines.empty()) check_version("");
+        return read_head(parse_request_line(lines[0]), lines, routes, limits);
     } catch (Refusal& refusal) {
-        if (line.method == "HEAD") refusal.without_body();
+        if (asks_for_head_only(raw)) refusal.without_body();
         throw;
     }
 }

@@ -38,4 +38,9 @@ struct Head {
 [[nodiscard]] Head vet_head(std::string_view raw, const RouteTable& routes,
                             const ServerLimits& limits);
 
+/// Whether the bytes begin a HEAD request: its answer has no body, whatever is wrong with it.
+[[nodiscard]] inline bool asks_for_head_only(std::string_view raw) {
+    return raw.substr(0, 5) == "HEAD ";
+}
+
 }  // namespace lastflat::http

@@ -8,7 +8,8 @@ WorkerPool::WorkerPool(JobStore& store, JobRunner runner, std::size_t workers)
 }
 
 WorkerPool::~WorkerPool() {
-    stop(std::chrono::milliseconds(0));
+    (void)stop(std::chrono::milliseconds(0), std::chrono::milliseconds(0));
+    for (std::thread& thread : threads_) thread.join();
 }
 
 void WorkerPool::wake() {
@@ -50,20 +51,17 @@ void WorkerPool::work() {
     }
 }
 
-void WorkerPool::stop(std::chrono::milliseconds grace) {
-    {
-        std::unique_lock lock(mutex_);
-        stopping_ = true;
-        changed_.notify_all();
-        changed_.wait_for(lock, grace, [&] { return running_.empty(); });
-        for (const auto& [id, progress] : running_) {
-            (void)store_.cancel(id);
-            progress->cancel();
-        }
+bool WorkerPool::stop(std::chrono::milliseconds grace, std::chrono::milliseconds last_grace) {
+    std::unique_lock lock(mutex_);
+    const auto idle = [&] { return running_.empty(); };
+    stopping_ = true;
+    changed_.notify_all();
+    if (changed_.wait_for(lock, grace, idle)) return true;
+    for (const auto& [id, progress] : running_) {
+        (void)store_.cancel(id);
+        progress->cancel();
     }
-    for (std::thread& thread : threads_) {
-        if (thread.joinable()) thread.join();
-    }
+    return changed_.wait_for(lock, last_grace, idle);
 }
 
 }  // namespace lastflat::server

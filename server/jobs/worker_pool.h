@@ -19,7 +19,7 @@ using JobRunner = std::function<JobOutcome(const JobInput&, Progress&)>;
 class WorkerPool {
 public:
     WorkerPool(JobStore& store, JobRunner runner, std::size_t workers);
-    /// As `stop` without any grace.
+    /// Cancels what runs and waits for it, as long as it takes.
     ~WorkerPool();
 
     /// Says that a job was added.
@@ -29,9 +29,9 @@ public:
     /// How far a running job is; nothing if it does not run here.
     [[nodiscard]] std::optional<std::pair<Stage, double>> progress(const std::string& id) const;
 
-    /// Takes no more jobs, lets running ones finish for `grace`, then cancels them; returns when
-    /// all threads have ended.
-    void stop(std::chrono::milliseconds grace);
+    /// Takes no more jobs, lets running ones finish for `grace`, then cancels them and gives them
+    /// `last_grace` to notice. False if one still runs; then only ending the process ends it.
+    [[nodiscard]] bool stop(std::chrono::milliseconds grace, std::chrono::milliseconds last_grace);
 
 private:
     void work();

@@ -10,7 +10,7 @@ namespace lastflat::test {
 inline FlattenOptions sample_options(const SampleLast& last) {
     FlattenOptions options;
     options.weld.groups = {"upper"};
-    for (const auto& [name, vertices] : last.curves) options.curves.push_back({name, vertices, ""});
+    for (const auto& [name, vertices] : last.curves) options.curves.push_back({name, vertices});
     options.cut = {{"centre_front", "heel"},
                    {{"lateral", last.lateral_vertex, {}}, {"medial", last.medial_vertex, {}}}};
     options.locks = {{"centre_front"}, {"heel"}};

@@ -197,7 +197,8 @@ TEST_SUITE("server/jobs/worker_pool") {
             pool.wake();
             started.wait();
             release = patient;
-            pool.stop(std::chrono::milliseconds(patient ? 60'000 : 0));
+            CHECK(pool.stop(std::chrono::milliseconds(patient ? 60'000 : 0),
+                            std::chrono::milliseconds(60'000)));
             CHECK(finished(store, "A").state ==
                   (patient ? JobState::succeeded : JobState::canceled));
             CHECK(store.find("B")->state == JobState::queued);
