@@ -26,6 +26,13 @@ private:
         throw Error(code, "OBJ line " + std::to_string(line_) + ": " + what);
     }
 
+    static std::string quoted(std::string_view word) {
+        std::string text = "'";
+        text.append(word.substr(0, 40));
+        text += '\'';
+        return text;
+    }
+
     std::string_view next_line() {
         ++line_;
         const auto end = rest_.find('\n');
@@ -76,7 +83,7 @@ private:
             material_ = read_whole_name(line);
             labels_changed_ = true;
         } else if (keyword == "call" || keyword == "csh") {
-            fail("`" + std::string(keyword) + "` would open another file or run a command",
+            fail(quoted(keyword) + " would open another file or run a command",
                  ErrorCode::unsupported_model);
         }
     }
@@ -86,7 +93,7 @@ private:
         double value = 0.0;
         const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), value);
         if (status != std::errc() || end != word.data() + word.size()) {
-            fail("'" + std::string(word.substr(0, 40)) + "' is not a number");
+            fail(quoted(word) + " is not a number");
         }
         if (!std::isfinite(value)) fail("a coordinate is not finite");
         return value;
@@ -109,7 +116,7 @@ private:
         const auto [end, status] =
             std::from_chars(number.data(), number.data() + number.size(), id);
         if (status != std::errc() || end != number.data() + number.size()) {
-            fail("'" + std::string(word.substr(0, 40)) + "' is not a vertex of a face");
+            fail(quoted(word) + " is not a vertex of a face");
         }
         const auto count = static_cast<std::int64_t>(mesh_.positions.size());
         const std::int64_t index = id > 0 ? id - 1 : count + id;

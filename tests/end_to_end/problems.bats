@@ -104,11 +104,9 @@ fails_with() {
     done
     for form in '{"polyline": [[0,0,0],[9,9,9]]}' '{"from": "a", "to": "b"}' '{"border_of": {"groups": ["upper", "sole"]}}'; do
         jq -c ".curves.extra = $form" "$sample/last.request.json" > "$request"
-        post "$sample/last.obj" "$request"
-        wait_until 60 has_ended_job "$job"
-        ask "$url$job/result"
-        assert_problem 409 unsupported_request
-        jq -e '.pointer | startswith("/curves/extra")' "$body"
+        ask -F "model=@$sample/last.obj" -F "request=@$request" "$url/v1/jobs"
+        assert_problem 422 unsupported_request
+        jq -e '.pointer | startswith("/curves/extra/")' "$body"
     done
 }
 

@@ -94,6 +94,26 @@ TEST_SUITE("core/layout") {
             check_pair({half(false), half(true)}, angle, 0.7 - angle);
     }
 
+    TEST_CASE("an arched piece moves down over the one below it") {
+        std::vector<Region> regions{half(false), half(true)};
+        std::vector<Chart> charts{view(regions[0], false, 0.0), view(regions[1], true, 0.0)};
+        for (Chart& chart : charts) {  // up to 30 mm of arch in the middle of the bottom
+            for (Vec2& p : chart.uv) p.y() += 30 * std::sin(M_PI * std::abs(p.x()) / 200) * (1 - p.y() / 70);
+        }
+        for (Region& region : regions) {  // shorter above, so that it fits under the arch
+            region.runs.clear();
+        }
+        Points2 narrow;
+        for (const Vec2& p : charts[0].uv) narrow.emplace_back(100 + 0.3 * (p.x() - 100), p.y());
+        charts[0].uv = narrow;
+        const Sheet sheet = arrange_pair(regions, charts, 10.0);
+        const double top = placed(regions[0], charts[0], sheet.placements[0])[0].y();
+        CHECK(sheet.height < 70 + 70 + 10 - 5);
+        CHECK(top >= 0);
+        CHECK_FALSE(overlap(placed(regions[0], charts[0], sheet.placements[0]),
+                            placed(regions[1], charts[1], sheet.placements[1])));
+    }
+
     TEST_CASE("without named curves the last's long axis takes their place") {
         std::vector<Region> regions{half(false), half(true)};
         for (Region& region : regions) region.runs.clear();
