@@ -54,6 +54,16 @@ void warn_of_absent_curves(const Curves& curves, const std::vector<Region>& regi
     }
 }
 
+/// One region of the result, measured and found sound.
+FlatRegion certified(const Region& region, const Chart& chart, const FlattenOptions& options,
+                     std::vector<Warning>& warnings) {
+    FlatRegion flat{region, chart, trace_outline(region, chart),
+                    measure_distortion(region, chart.uv),
+                    measure_curves(region, chart.uv, options.locks)};
+    check_result(region, chart.uv, options.method.name, flat.metrics, flat.curves, warnings);
+    return flat;
+}
+
 }  // namespace
 
 FlattenResult flatten(std::string_view model, const FlattenOptions& options, Progress& progress) {
@@ -108,12 +118,8 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& options, Pro
     result.sheet = arrange_pair(regions, charts, options.layout_gap_mm);
     result.pairs = measure_pairs(regions, charts);
     for (std::size_t r = 0; r < regions.size(); ++r) {
-        result.regions.push_back({regions[r], charts[r], trace_outline(regions[r], charts[r]),
-                                  measure_distortion(regions[r], charts[r].uv),
-                                  measure_curves(regions[r], charts[r].uv, options.locks),
-                                  minima[r].iterations});
-        check_result(regions[r], charts[r].uv, options.method.name, result.regions.back().metrics,
-                     result.regions.back().curves, result.warnings);
+        result.regions.push_back(certified(regions[r], charts[r], options, result.warnings));
+        result.regions.back().iterations = minima[r].iterations;
     }
     result.timing.total_ms = total.lap();
     progress.reach(Stage::done, 1.0);

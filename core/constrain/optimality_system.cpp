@@ -12,46 +12,61 @@
 namespace lastflat {
 namespace {
 
+using Block = std::pair<Index, Index>;  ///< (column vertex, row vertex)
+
+/// Every vertex with itself and every two that share an edge, by column.
+std::vector<Block> vertex_blocks(const Region& region) {
+    std::vector<Block> blocks;
+    for (const Triangle& t : region.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) blocks.push_back(std::minmax(t[i], t[(i + 1) % 3]));
+    }
+    for (Index v = 0; v < static_cast<Index>(region.positions.size()); ++v)
+        blocks.emplace_back(v, v);
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    return blocks;
+}
+
+/// Per vertex, the constraints that it takes part in, ascending.
+std::vector<std::vector<Index>> constraints_by_vertex(
+    const Region& region, const std::vector<LengthConstraint>& constraints) {
+    std::vector<std::vector<Index>> result(region.positions.size());
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        const auto constraint = static_cast<Index>(k);
+        for (const auto& [a, b] : constraints[k].edges) {
+            for (const Index v : {a, b}) {
+                auto& list = result[static_cast<std::size_t>(v)];
+                if (list.empty() || list.back() != constraint) list.push_back(constraint);
+            }
+        }
+    }
+    return result;
+}
+
 /// The lower triangle's pattern, all values zero: a 2x2 block for every edge and vertex, a row for
 /// every constraint.
 SparseMatrix pattern(const Region& region, const std::vector<LengthConstraint>& constraints) {
     const auto n = static_cast<Index>(region.positions.size());
     const auto m = static_cast<Index>(constraints.size());
-    std::vector<std::pair<Index, Index>> blocks;  // (column vertex, row vertex)
-    for (const Triangle& t : region.triangles) {
-        for (std::size_t i = 0; i < 3; ++i) blocks.push_back(std::minmax(t[i], t[(i + 1) % 3]));
-    }
-    for (Index v = 0; v < n; ++v) blocks.emplace_back(v, v);
-    std::sort(blocks.begin(), blocks.end());
-    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-
-    std::vector<std::vector<Index>> rows_of_vertex(static_cast<std::size_t>(n));
-    for (Index k = 0; k < m; ++k) {
-        for (const auto& [a, b] : constraints[static_cast<std::size_t>(k)].edges) {
-            for (const Index v : {a, b}) {
-                auto& rows = rows_of_vertex[static_cast<std::size_t>(v)];
-                if (rows.empty() || rows.back() != 2 * n + k) rows.push_back(2 * n + k);
-            }
-        }
-    }
+    const auto blocks = vertex_blocks(region);
+    const auto constraints_at = constraints_by_vertex(region, constraints);
     SparseMatrix matrix(2 * n + m, 2 * n + m);
-    matrix.reserve(static_cast<Index>(4 * blocks.size()) + 4 * m);
-    std::size_t block = 0;
-    for (Index v = 0; v < n; ++v) {
-        const std::size_t first = block;
-        while (block < blocks.size() && blocks[block].first == v) ++block;
-        for (Index side = 0; side < 2; ++side) {
-            matrix.startVec(2 * v + side);
-            for (std::size_t i = first; i < block; ++i) {
-                const Index w = blocks[i].second;
-                for (Index k = w == v ? side : 0; k < 2; ++k) {
-                    matrix.insertBackByOuterInner(2 * v + side, 2 * w + k) = 0.0;
-                }
-            }
-            for (const Index row : rows_of_vertex[static_cast<std::size_t>(v)]) {
-                matrix.insertBackByOuterInner(2 * v + side, row) = 0.0;
+    matrix.reserve(static_cast<Eigen::Index>(4 * blocks.size()) + 4 * m);
+    std::size_t next = 0;
+    for (Index column = 0; column < 2 * n; ++column) {
+        const Index v = column / 2, side = column % 2;
+        matrix.startVec(column);
+        std::size_t i = next;
+        for (; i < blocks.size() && blocks[i].first == v; ++i) {
+            const Index w = blocks[i].second;
+            for (Index k = w == v ? side : 0; k < 2; ++k) {
+                matrix.insertBackByOuterInner(column, 2 * w + k) = 0.0;
             }
         }
+        for (const Index constraint : constraints_at[static_cast<std::size_t>(v)]) {
+            matrix.insertBackByOuterInner(column, 2 * n + constraint) = 0.0;
+        }
+        if (side == 1) next = i;
     }
     for (Index k = 0; k < m; ++k) {
         matrix.startVec(2 * n + k);

@@ -81,25 +81,28 @@ std::string stretch_paths(const FlatRegion& flat, const Points2& places, const P
         auto& path = paths[static_cast<std::size_t>(std::lround(share * classes) + classes)];
         const Triangle& triangle = flat.region.triangles[t];
         for (std::size_t i = 0; i < 3; ++i) {
-            path +=
-                (i == 0 ? "M" : "L") + page.point(places[static_cast<std::size_t>(triangle[i])]);
+            path += i == 0 ? 'M' : 'L';
+            path += page.point(places[static_cast<std::size_t>(triangle[i])]);
         }
         path += "z";
     }
     std::string svg;
-    for (int level = -classes; level <= classes; ++level) {
-        const auto& path = paths[static_cast<std::size_t>(level + classes)];
+    int level = -classes;
+    for (const std::string& path : paths) {
+        const std::string fill = colour(level++);
         if (path.empty()) continue;
-        const std::string fill = colour(level);
-        svg += "<path fill=\"" + fill + "\" stroke=\"" + fill + "\" d=\"" + path + "\"/>\n";
+        svg.append("<path fill=\"").append(fill).append("\" stroke=\"").append(fill);
+        svg.append("\" d=\"").append(path).append("\"/>\n");
     }
     return svg;
 }
 
 std::string polyline(const Points2& points, const Page& page, bool closed) {
     std::string d;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        d += (i == 0 ? "M" : "L") + page.point(points[i]);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        d += i == 0 ? 'M' : 'L';
+        d += page.point(points[i]);
+    }
     return closed ? d + "z" : d;
 }
 

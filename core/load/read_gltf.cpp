@@ -51,7 +51,7 @@ Elements checked_elements(const tinygltf::Model& model, int index, int type) {
         tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
     const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
     if (component <= 0 || components <= 0) fail(name + " has an unknown component type");
-    const auto size = static_cast<std::size_t>(component * components);
+    const auto size = static_cast<std::size_t>(component) * static_cast<std::size_t>(components);
     const std::size_t stride = view.byteStride != 0 ? view.byteStride : size;
     if (accessor.count == 0) fail(name + " is empty");
     const std::size_t data = buffer.data.size();

@@ -78,7 +78,7 @@ std::string answer_bytes(const Response& response, bool without_body) {
     bytes += reason(response.status);
     bytes += "\r\nConnection: close\r\n";
     for (const auto& [name, value] : outgoing_headers(response)) {
-        bytes += name + ": " + value + "\r\n";
+        bytes.append(name).append(": ").append(value).append("\r\n");
     }
     if (!body.empty()) bytes += "Content-Type: " + outgoing_media_type(response) + "\r\n";
     if (response.status != 204) {

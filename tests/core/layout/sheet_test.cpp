@@ -98,7 +98,8 @@ TEST_SUITE("core/layout") {
         std::vector<Region> regions{half(false), half(true)};
         std::vector<Chart> charts{view(regions[0], false, 0.0), view(regions[1], true, 0.0)};
         for (Chart& chart : charts) {  // up to 30 mm of arch in the middle of the bottom
-            for (Vec2& p : chart.uv) p.y() += 30 * std::sin(M_PI * std::abs(p.x()) / 200) * (1 - p.y() / 70);
+            for (Vec2& p : chart.uv)
+                p.y() += 30 * std::sin(M_PI * std::abs(p.x()) / 200) * (1 - p.y() / 70);
         }
         for (Region& region : regions) {  // shorter above, so that it fits under the arch
             region.runs.clear();
