@@ -30,9 +30,6 @@ git ls-files -z '*.h' '*.cpp' 2>/dev/null | xargs -0 clang-format-14 --dry-run -
 step "release: build"
 build release all
 
-step "lint"
-tests/lint.sh
-
 step "address and undefined behaviour sanitizers"
 build asan core_tests api_tests server_tests lastflat
 ctest --preset asan -R '^(core_tests|api_tests|server_tests|hostile)$' --quiet --output-log build/asan/ctest.log ||
