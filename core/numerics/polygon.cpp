@@ -80,8 +80,4 @@ std::vector<Crossing> self_crossings(const Points2& polygon) {
     return crossings;
 }
 
-double angle_opposite(double a, double b, double c) {
-    return std::acos(std::clamp((a * a + b * b - c * c) / (2.0 * a * b), -1.0, 1.0));
-}
-
 }  // namespace lastflat

@@ -36,10 +36,6 @@ struct Crossing {
 template <class Vec>
 [[nodiscard]] double angle_at(const Vec& apex, const Vec& a, const Vec& b);
 
-/// The three angles of the triangle with these side lengths are found from one: the angle opposite
-/// to side `c`. Clamped, so that a degenerate triangle gives 0 or pi.
-[[nodiscard]] double angle_opposite(double a, double b, double c);
-
 }  // namespace lastflat
 
 #include <algorithm>

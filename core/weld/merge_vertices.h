@@ -6,7 +6,8 @@
 namespace lastflat {
 
 /// For every vertex the smallest id of those it is merged with: all that a chain of steps of at
-/// most `tolerance_mm` reaches. Zero merges equal positions only.
+/// most `tolerance_mm` reaches. Zero merges equal positions only. Between two spots, each narrower
+/// than the tolerance, that hold hundreds of vertices, a step may be missed: time is bounded first.
 [[nodiscard]] std::vector<Index> merge_vertices(const Points3& positions, double tolerance_mm);
 
 /// No vertex is merged: 0, 1, 2 ...
