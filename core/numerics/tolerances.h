@@ -31,6 +31,13 @@ inline constexpr double pin = 1e4;
 /// quasi-definite and can be factored in any order (Vanderbei 1995). Refinement removes its trace.
 inline constexpr double multiplier_regularisation = 1e-7;
 
+/// Geodesics: differences below this share are round-off.
+inline constexpr double geodesic_round_off = 1e-12;
+
+/// Light through an edge: what misses an end by less than this share of the edge still reaches it,
+/// so that no ray is lost between two windows; the length of its path is off by the square of it.
+inline constexpr double geodesic_slack = 1e-10;
+
 /// Two sides of a cut may differ by this much in the flat, in mm (design: pass at 0.001 mm).
 inline constexpr double pair_difference_mm = 1e-3;
 

@@ -1,0 +1,320 @@
+// Based on: Chen, Han, "Shortest Paths on a Polyhedron", SoCG 1990; Xin, Wang, "Improving Chen and
+// Han's Algorithm on the Discrete Geodesic Problem", TOG 2009; Xu, Wang, Liu, Liu, He, "Fast
+// Wavefront Propagation for Computing Exact Geodesic Distances on Meshes", TVCG 2015.
+#include "core/geodesic/exact_geodesics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/numerics/polygon.h"
+#include "core/numerics/tolerances.h"
+
+namespace lastflat {
+namespace {
+
+using std::numbers::pi;
+
+/// Light from a root that falls through a stretch of an edge into the triangle of `half_edge`.
+struct Window {
+    double begin, end;  ///< the stretch, as x in the half-edge's frame
+    Vec2 place;         ///< of the root in that frame, y <= 0
+    double offset;      ///< from the source to the root
+    Index half_edge;    ///< spawn: no light yet, the root is to be opened
+    Index root;
+    static constexpr Index spawn = -1;
+
+    [[nodiscard]] double distance_at(double x) const {
+        return offset + std::sqrt((x - place.x()) * (x - place.x()) + place.y() * place.y());
+    }
+    [[nodiscard]] double least_distance() const {
+        return distance_at(std::clamp(place.x(), begin, end));
+    }
+};
+
+/// A queue that is sorted only by classes of distance: exact order is not needed, for windows of
+/// later classes never improve what earlier ones have found by much.
+class Buckets {
+public:
+    explicit Buckets(double width) : width_(width) {}
+
+    void push(const Window& window, double distance) {
+        const auto bucket = std::max(current_, static_cast<std::size_t>(distance / width_));
+        if (bucket >= buckets_.size()) buckets_.resize(bucket + 1);
+        buckets_[bucket].push_back(window);
+    }
+    /// Takes the oldest window of the nearest class. False: none is left.
+    bool pop(Window& window) {
+        while (current_ < buckets_.size()) {
+            auto& bucket = buckets_[current_];
+            if (next_ < bucket.size()) {
+                window = bucket[next_++];
+                return true;
+            }
+            std::vector<Window>().swap(bucket);
+            next_ = 0;
+            ++current_;
+        }
+        return false;
+    }
+
+private:
+    double width_;
+    std::vector<std::vector<Window>> buckets_;
+    std::size_t current_ = 0, next_ = 0;
+};
+
+class Propagation {
+public:
+    Propagation(const HalfEdges& half_edges, const std::vector<double>& total_angles)
+        : half_edges_(half_edges),
+          total_angles_(total_angles),
+          splits_(static_cast<std::size_t>(half_edges.count())),
+          buckets_(0.3 * mean_length(half_edges)) {
+        result_.distance.assign(total_angles.size(), infinity);
+        result_.arrivals.assign(total_angles.size(), {GeodesicDistances::no_root, -1, {0, 0}});
+    }
+
+    GeodesicDistances from_vertex(Index vertex, const Progress& progress) {
+        result_.source_vertex = vertex;
+        result_.distance[at(vertex)] = 0.0;
+        result_.arrivals[at(vertex)].root = vertex;
+        open(vertex);
+        return run(progress);
+    }
+
+    GeodesicDistances from_point(const SurfacePoint& point, const Progress& progress) {
+        const Index first = 3 * point.triangle;
+        const Vec2 place = point.weights[1] * Vec2(half_edges_.length(first), 0.0) +
+                           point.weights[2] * half_edges_.apex_place(first);
+        const std::array<Vec2, 3> corners{Vec2(0, 0), Vec2(half_edges_.length(first), 0.0),
+                                          half_edges_.apex_place(first)};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Index h = first + static_cast<Index>(i);
+            const Vec2 along = (corners[(i + 1) % 3] - corners[i]) / half_edges_.length(h);
+            const Vec2 in_frame(along.dot(place - corners[i]),
+                                std::max(cross(along, place - corners[i]), 0.0));
+            const Index opposite_corner = half_edges_.apex(h);
+            reach(opposite_corner, (corners[(i + 2) % 3] - place).norm(),
+                  {GeodesicDistances::no_root, h, in_frame});
+            shine(h, in_frame, 0.0, GeodesicDistances::no_root);
+        }
+        return run(progress);
+    }
+
+private:
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+    static double mean_length(const HalfEdges& half_edges) {
+        double sum = 0.0;
+        for (Index h = 0; h < half_edges.count(); ++h) sum += half_edges.length(h);
+        return sum / half_edges.count();
+    }
+
+    GeodesicDistances run(const Progress& progress) {
+        constexpr int check_every = 4096;
+        Window window{};
+        for (int count = 1; buckets_.pop(window); ++count) {
+            if (count % check_every == 0) progress.check();
+            if (window.half_edge != Window::spawn) {
+                propagate(window);
+            } else if (window.offset <= result_.distance[at(window.root)]) {
+                open(window.root);
+            }
+        }
+        return std::move(result_);
+    }
+
+    /// A path of length `distance` has reached the vertex.
+    void reach(Index vertex, double distance, const GeodesicDistances::Arrival& arrival) {
+        double& known = result_.distance[at(vertex)];
+        // What improves by round-off alone is no other path, and not worth opening a vertex again.
+        if (!(distance < known * (1.0 - tolerance::geodesic_round_off))) return;
+        known = distance;
+        result_.arrivals[at(vertex)] = arrival;
+        if (total_angles_[at(vertex)] > 0.0) {
+            buckets_.push({0.0, 0.0, {0, 0}, distance, Window::spawn, vertex}, distance);
+        }
+    }
+
+    /// All light that leaves the triangle of h through h, from a root in the triangle at `place`.
+    void shine(Index h, const Vec2& place, double offset, Index root) {
+        const Index other = half_edges_.twin(h);
+        if (other < 0) return;
+        const double length = half_edges_.length(h);
+        const Window window{0.0, length, {length - place.x(), -place.y()}, offset, other, root};
+        buckets_.push(window, window.least_distance());
+    }
+
+    /// Lets paths go on from a vertex, in the directions in which they make no corner that a
+    /// shorter path could cut: at least pi from where they came on either side.
+    void open(Index vertex) {
+        constexpr double margin = 1e-9;  // radians; a little more light does no harm
+        const double offset = result_.distance[at(vertex)];
+        const bool whole = vertex == result_.source_vertex;
+        const bool border = half_edges_.on_border(vertex);
+        const double total = total_angles_[at(vertex)];
+        const double came = whole ? 0.0 : direction_of_arrival(vertex);
+        const Index first = half_edges_.outgoing(vertex);
+        double begin = 0.0;
+        for (Index h = first; h >= 0;) {
+            const double end = begin + half_edges_.angle(h);
+            // Turned so that the path came from 0; around an inner vertex modulo the total angle.
+            const auto sees = [&](double low, double high) {
+                return begin - came <= high + margin && end - came >= low - margin;
+            };
+            const bool lit = whole || (border ? sees(pi, infinity) || sees(-infinity, -pi)
+                                              : sees(pi, total - pi) || sees(pi - total, -pi));
+            if (lit) open_triangle(h, offset);
+            begin = end;
+            h = half_edges_.rotated(h);
+            if (h == first) break;
+        }
+    }
+
+    void open_triangle(Index h, double offset) {
+        const Index vertex = half_edges_.from(h), opposite = HalfEdges::next(h);
+        reach(half_edges_.to(h), offset + half_edges_.length(h), {vertex, -1, {0, 0}});
+        reach(half_edges_.apex(h), offset + half_edges_.length(HalfEdges::previous(h)),
+              {vertex, -1, {0, 0}});
+        shine(opposite, half_edges_.apex_place(opposite), offset, vertex);
+    }
+
+    /// The angle at the vertex, counted from its first half-edge, towards where its path came from.
+    double direction_of_arrival(Index vertex) const {
+        const auto& arrival = result_.arrivals[at(vertex)];
+        const Index first = half_edges_.outgoing(vertex);
+        double begin = 0.0;
+        for (Index h = first; h >= 0;) {
+            const Index last = HalfEdges::previous(h), opposite = HalfEdges::next(h);
+            if (arrival.half_edge == opposite) {
+                const Vec2& apex = half_edges_.apex_place(opposite);
+                const Vec2 along_h = -apex, back = arrival.place - apex;
+                return begin + std::atan2(cross(along_h, back), along_h.dot(back));
+            }
+            if (arrival.half_edge < 0 && half_edges_.to(h) == arrival.root) return begin;
+            begin += half_edges_.angle(h);
+            if (arrival.half_edge < 0 && half_edges_.from(last) == arrival.root) return begin;
+            h = half_edges_.rotated(h);
+            if (h == first) break;
+        }
+        return begin;
+    }
+
+    /// Light falls through a triangle: on its third corner and out through both other edges.
+    void propagate(const Window& w) {
+        const Index h = w.half_edge, left = HalfEdges::previous(h), right = HalfEdges::next(h);
+        const Vec2& apex = half_edges_.apex_place(h);
+        const double length = half_edges_.length(h), depth = -w.place.y();
+        const double slack = tolerance::geodesic_slack * length;
+        // Where the line from the root to the apex passes the edge.
+        const double split = w.place.x() + (apex.x() - w.place.x()) * depth / (apex.y() + depth);
+        bool go_left = split > w.begin + slack, go_right = split < w.end - slack;
+        if (split >= w.begin - slack && split <= w.end + slack) {
+            const double distance = w.offset + (apex - w.place).norm();
+            reach(half_edges_.from(left), distance, {w.root, h, w.place});
+            Split& best = splits_[at(h)];
+            if (distance < best.distance) {
+                best = {distance, split};
+            } else {  // a nearer root splits here: beyond its line it is nearer everywhere
+                if (split < best.x - slack) go_right = false;
+                if (split > best.x + slack) go_left = false;
+            }
+        }
+        const double apex_length = half_edges_.length(left);  // from the origin to the apex
+        if (go_left) {
+            const Vec2 along = apex / apex_length;
+            const Vec2 place(along.dot(w.place), cross(along, w.place));
+            const auto crossing = [&](double x) {
+                return apex_length * x * depth / (depth * apex.x() + apex.y() * (w.place.x() - x));
+            };
+            const double begin = crossing(w.begin);
+            const double end = split <= w.end ? apex_length : crossing(w.end);
+            pass(w, half_edges_.twin(left), begin, end, place, half_edges_.to(h),
+                 (begin * along - Vec2(length, 0.0)).norm(), true);
+        }
+        if (go_right) {
+            const double side = half_edges_.length(right);
+            const Vec2 along = (Vec2(length, 0.0) - apex) / side, from_apex = w.place - apex;
+            const Vec2 place(along.dot(from_apex), cross(along, from_apex));
+            // Seen from the edge's end, the mirror image of the left side.
+            const Vec2 mirrored(length - apex.x(), apex.y());
+            const auto crossing = [&](double x) {
+                const double y = length - x, root = length - w.place.x();
+                return side - side * y * depth / (depth * mirrored.x() + mirrored.y() * (root - y));
+            };
+            const double begin = split >= w.begin ? 0.0 : crossing(w.begin);
+            const double end = crossing(w.end);
+            pass(w, half_edges_.twin(right), begin, end, place, half_edges_.from(h),
+                 (apex + end * along).norm(), false);
+        }
+    }
+
+    /// Queues the part of a window that leaves through an edge, unless a path over a vertex is
+    /// known to be shorter for all of it: over either end of the edge, or over the corner behind,
+    /// from which the way to the window's far end crosses all of its light.
+    void pass(const Window& parent, Index h, double begin, double end, const Vec2& place,
+              Index behind, double behind_to_far, bool far_is_begin) {
+        if (h < 0) return;
+        const double length = half_edges_.length(h);
+        begin = std::max(begin, 0.0);
+        end = std::min(end, length);
+        const double slack = tolerance::geodesic_slack * length;
+        if (!(end - begin > slack)) return;
+        const Window window{begin,         end, {place.x(), std::min(place.y(), 0.0)},
+                            parent.offset, h,   parent.root};
+        const double at_begin = window.distance_at(begin), at_end = window.distance_at(end);
+        if (result_.distance[at(half_edges_.from(h))] + end < at_end - slack) return;
+        if (result_.distance[at(half_edges_.to(h))] + length - begin < at_begin - slack) return;
+        if (result_.distance[at(behind)] + behind_to_far <
+            (far_is_begin ? at_begin : at_end) - slack)
+            return;
+        buckets_.push(window, window.least_distance());
+    }
+
+    /// The nearest root whose light a triangle's third corner splits, and where on the edge.
+    struct Split {
+        double distance = infinity, x = 0.0;
+    };
+
+    const HalfEdges& half_edges_;
+    const std::vector<double>& total_angles_;
+    std::vector<Split> splits_;
+    Buckets buckets_;
+    GeodesicDistances result_;
+};
+
+}  // namespace
+
+ExactGeodesics::ExactGeodesics(const Region& region) : half_edges_(region) {
+    total_angles_.assign(region.positions.size(), 0.0);
+    for (Index v = 0; v < half_edges_.vertex_count(); ++v) {
+        if (half_edges_.outgoing(v) < 0) continue;
+        const double total = half_edges_.total_angle(v);
+        const double straight = half_edges_.on_border(v) ? pi : 2.0 * pi;
+        if (total > straight * (1.0 + tolerance::geodesic_round_off)) {
+            total_angles_[static_cast<std::size_t>(v)] = total;
+        }
+    }
+}
+
+GeodesicDistances ExactGeodesics::from_vertex(Index vertex, const Progress& progress) const {
+    return Propagation(half_edges_, total_angles_).from_vertex(vertex, progress);
+}
+
+GeodesicDistances ExactGeodesics::from_point(const SurfacePoint& point,
+                                             const Progress& progress) const {
+    Eigen::Index corner = 0;
+    if (point.weights.maxCoeff(&corner) >= 1.0 - tolerance::geodesic_round_off) {
+        return from_vertex(half_edges_.from(3 * point.triangle + static_cast<Index>(corner)),
+                           progress);
+    }
+    GeodesicDistances result = Propagation(half_edges_, total_angles_).from_point(point, progress);
+    result.source = point;
+    return result;
+}
+
+}  // namespace lastflat

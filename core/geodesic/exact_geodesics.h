@@ -1,0 +1,60 @@
+// Exact distances along the triangulated surface.
+#pragma once
+
+#include <vector>
+
+#include "core/geodesic/half_edges.h"
+#include "core/progress.h"
+
+namespace lastflat {
+
+/// A place on a region: in a triangle, by barycentric weights of its corners. One weight 0: on an
+/// edge; two: at a vertex.
+struct SurfacePoint {
+    Index triangle;
+    Vec3 weights;
+};
+
+/// Distances from one source to every vertex, mm, and how each shortest path arrives.
+struct GeodesicDistances {
+    /// The last straight stretch of a shortest path. It comes from `root`, the vertex where the
+    /// path bent last (or the source), which lies at `place` in the frame of `half_edge`, across
+    /// which it enters the last triangle. `half_edge` -1: it runs along the edge from `root`.
+    struct Arrival {
+        Index root;  ///< no_root: the source itself, where that is not a vertex
+        Index half_edge;
+        Vec2 place;
+    };
+    static constexpr Index no_root = -1;
+
+    SurfacePoint source;
+    Index source_vertex = -1;  ///< if the source is a vertex
+    std::vector<double> distance;
+    std::vector<Arrival> arrivals;
+};
+
+/// Exact polyhedral geodesic distances on one region, by windows that are propagated across edges.
+///
+/// Paper:  [chen-1990] (windows, one angle one split), [xin-2009] (filtering against the vertices'
+///         distances), order of work by buckets as in [xu-2015]. Unlike them: a shortest path may
+///         also bend around border vertices, and windows that a bend opens are kept to the
+///         directions in which a shortest path can go on.
+/// Guarantees: round-off apart, the length of the shortest path on the triangles. Time and memory
+///         depend on the number of windows, about n^1.5 on a smooth surface of n triangles.
+class ExactGeodesics {
+public:
+    explicit ExactGeodesics(const Region& region);
+
+    /// Throws: Error{cancelled}.
+    [[nodiscard]] GeodesicDistances from_vertex(Index vertex, const Progress& progress) const;
+    [[nodiscard]] GeodesicDistances from_point(const SurfacePoint& point,
+                                               const Progress& progress) const;
+
+    [[nodiscard]] const HalfEdges& half_edges() const { return half_edges_; }
+
+private:
+    HalfEdges half_edges_;
+    std::vector<double> total_angles_;  ///< per vertex where paths may bend; 0: they cannot
+};
+
+}  // namespace lastflat

@@ -1,0 +1,37 @@
+// The geodesic fan of a region: its centre, and the border in polar coordinates around it.
+#pragma once
+
+#include <optional>
+
+#include "core/geodesic/trace_path.h"
+
+namespace lastflat {
+
+struct FanSpoke {
+    double angle;     ///< radians, counter-clockwise seen from outside, in [0, 2 pi)
+    double distance;  ///< mm
+    GeodesicPath path;
+};
+
+/// One spoke for each border vertex, in the order of the border. Angles are those of the conformal
+/// plane at the centre: the surface's, scaled so that they go round once. They count from the
+/// centre's first half-edge; `polar_base` in layout/ turns them to the pattern's base line.
+struct GeodesicFan {
+    Index centre;
+    double mean_distance;      ///< A_1 of the centre, mm
+    double greatest_distance;  ///< A_inf of the centre, mm
+    double radius;             ///< to the furthest border vertex, mm
+    std::vector<FanSpoke> spokes;
+    int runs;
+};
+
+/// Paper:  [kim-kim], sections 3.1 and 3.4; A_n: [hilaga-2001], integrated over the triangles with
+///         the distance taken as linear on each.
+/// Throws: Error{cancelled}; Error{solver_failed}.
+[[nodiscard]] GeodesicFan geodesic_fan(const Region& region, const Progress& progress);
+
+/// The angle of a direction that leaves the vertex inside the triangle of `half_edge` (which begins
+/// there), `beyond` radians from that half-edge, in the conformal plane of the vertex.
+[[nodiscard]] double conformal_angle(const HalfEdges& half_edges, Index half_edge, double beyond);
+
+}  // namespace lastflat

@@ -1,0 +1,96 @@
+#include "core/geodesic/trace_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/numerics/polygon.h"
+
+namespace lastflat {
+namespace {
+
+using Arrival = GeodesicDistances::Arrival;
+
+/// A straight line that crosses half-edge h at x, on its way back to its root, which lies at
+/// `root` in the frame of h, above the edge or beyond.
+struct Line {
+    Index half_edge;
+    double x;
+    Vec2 root;
+};
+
+/// Whether the line's root is the third corner of the triangle it has just entered.
+bool ends_at_apex(const HalfEdges& half_edges, const Line& line, Index root) {
+    constexpr double round_off = 1e-6;  // of the triangle's size; other corners are further away
+    return half_edges.apex(line.half_edge) == root &&
+           (half_edges.apex_place(line.half_edge) - line.root).norm() <
+               round_off * half_edges.length(line.half_edge);
+}
+
+/// The edge through which the line leaves the triangle that it entered, seen from the next one.
+/// The half-edge is -1 if there is no next one.
+Line crossed(const HalfEdges& half_edges, const Line& line) {
+    const Index h = line.half_edge;
+    const Vec2& apex = half_edges.apex_place(h);
+    const Vec2 entry(line.x, 0.0), direction = line.root - entry;
+    const bool left = cross(apex - entry, direction) > 0.0;
+    const Index exit = left ? HalfEdges::previous(h) : HalfEdges::next(h);
+    const Vec2 origin = left ? Vec2::Zero() : apex;
+    const Vec2 end = left ? apex : Vec2(half_edges.length(h), 0.0);
+    const Vec2 along = (end - origin) / half_edges.length(exit);
+    const double sine = cross(direction, along);
+    const double x = sine != 0.0 ? cross(direction, entry - origin) / sine : 0.0;
+    return {half_edges.twin(exit),
+            std::clamp(x, 0.0, half_edges.length(exit)),
+            {along.dot(line.root - origin), cross(along, line.root - origin)}};
+}
+
+/// Appends the straight stretch before `vertex`, from there backwards, without its root.
+void trace_stretch(const HalfEdges& half_edges, const GeodesicDistances& distances,
+                   const Arrival& arrival, Index vertex, std::vector<PathPoint>& points) {
+    const auto lose_way = [&] {
+        throw Error(
+            ErrorCode::solver_failed,
+            "a shortest path to vertex " + std::to_string(vertex) + " cannot be traced back");
+    };
+    const bool from_inside = arrival.half_edge >= 0 && arrival.root == GeodesicDistances::no_root &&
+                             arrival.half_edge / 3 == distances.source.triangle;
+    if (arrival.half_edge < 0 || from_inside) return;
+    // First across the arrival's own edge, seen from the triangle before it.
+    const Vec2& apex = half_edges.apex_place(arrival.half_edge);
+    const double length = half_edges.length(arrival.half_edge), depth = -arrival.place.y();
+    const double x =
+        arrival.place.x() + (apex.x() - arrival.place.x()) * depth / (apex.y() + depth);
+    Line line{half_edges.twin(arrival.half_edge),
+              std::clamp(length - x, 0.0, length),
+              {length - arrival.place.x(), depth}};
+    for (Index step = 0; step < half_edges.count(); ++step) {
+        if (line.half_edge < 0) lose_way();
+        points.push_back({half_edges.from(line.half_edge), half_edges.to(line.half_edge),
+                          line.x / half_edges.length(line.half_edge)});
+        if (arrival.root == GeodesicDistances::no_root
+                ? line.half_edge / 3 == distances.source.triangle
+                : ends_at_apex(half_edges, line, arrival.root)) {
+            return;
+        }
+        line = crossed(half_edges, line);
+    }
+    lose_way();
+}
+
+}  // namespace
+
+GeodesicPath trace_path(const HalfEdges& half_edges, const GeodesicDistances& distances,
+                        Index vertex) {
+    GeodesicPath path;
+    for (Index at = vertex; at != GeodesicDistances::no_root;) {
+        path.points.push_back({at, at, 0.0});
+        if (at == distances.source_vertex) break;
+        const Arrival& arrival = distances.arrivals[static_cast<std::size_t>(at)];
+        trace_stretch(half_edges, distances, arrival, at, path.points);
+        at = arrival.root;
+    }
+    std::reverse(path.points.begin(), path.points.end());
+    return path;
+}
+
+}  // namespace lastflat

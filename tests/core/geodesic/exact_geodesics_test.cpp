@@ -1,0 +1,179 @@
+#include "core/geodesic/exact_geodesics.h"
+
+#include <doctest/doctest.h>
+
+#include "core/geodesic/trace_path.h"
+#include "tests/helpers/shapes.h"
+
+namespace lastflat {
+namespace {
+
+double at(const GeodesicDistances& distances, Index v) {
+    return distances.distance[static_cast<std::size_t>(v)];
+}
+
+double length_of(const Region& region, const GeodesicPath& path) {
+    double length = 0;
+    for (std::size_t i = 1; i < path.points.size(); ++i) {
+        length += (place_of(path.points[i], region.positions) -
+                   place_of(path.points[i - 1], region.positions))
+                      .norm();
+    }
+    return length;
+}
+
+/// A flat L: a 20 x 20 square without its upper right quarter, whose corner (10, 10) stays.
+Region flat_l() {
+    Region region = test::grid(20, 20, [](double s, double t) { return Vec3(20 * s, 20 * t, 0); });
+    std::erase_if(region.triangles, [&](const Triangle& t) {
+        const Vec3 mean =
+            (region.position(t[0]) + region.position(t[1]) + region.position(t[2])) / 3;
+        return mean.x() > 10 && mean.y() > 10;
+    });
+    std::vector<Index> id(region.positions.size(), -1);
+    Points3 used;
+    for (Triangle& t : region.triangles) {
+        for (Index& v : t) {
+            Index& known = id[static_cast<std::size_t>(v)];
+            if (known < 0) {
+                known = static_cast<Index>(used.size());
+                used.push_back(region.position(v));
+            }
+            v = known;
+        }
+    }
+    region.positions = used;
+    region.runs.clear();
+    region.border = checked_border(region);
+    return region;
+}
+
+}  // namespace
+
+TEST_SUITE("core/geodesic/exact_geodesics") {
+    TEST_CASE("on a plane distances are straight lines, whatever the triangles") {
+        for (const Region& region : {test::plane(15), test::grid(9, 7, [](double s, double t) {
+                                         return Vec3(90 * s, 60 * t, 0);
+                                     })}) {
+            const ExactGeodesics geodesics(region);
+            const Index source = 40;
+            const auto distances = geodesics.from_vertex(source, Progress());
+            for (Index v = 0; v < static_cast<Index>(region.positions.size()); ++v) {
+                CHECK(std::abs(at(distances, v) - region.distance(v, source)) < 1e-10);
+            }
+        }
+    }
+
+    TEST_CASE("a shortest path bends around a corner of the border") {
+        const Region region = flat_l();
+        const ExactGeodesics geodesics(region);
+        Index source = -1;
+        for (Index v = 0; v < static_cast<Index>(region.positions.size()); ++v) {
+            if ((region.position(v) - Vec3(19, 3, 0)).norm() < 1e-9) source = v;
+        }
+        REQUIRE(source >= 0);
+        const auto distances = geodesics.from_vertex(source, Progress());
+        const Vec3 corner(10, 10, 0), from = region.position(source);
+        for (Index v = 0; v < static_cast<Index>(region.positions.size()); ++v) {
+            const Vec3 p = region.position(v);
+            const double turn =
+                (corner - from).x() * (p - corner).y() - (corner - from).y() * (p - corner).x();
+            const bool hidden = p.y() > 10 && turn < 0;
+            const double expected =
+                hidden ? (corner - from).norm() + (p - corner).norm() : (p - from).norm();
+            CAPTURE(p.transpose());
+            CHECK(std::abs(at(distances, v) - expected) < 1e-10);
+            CHECK(std::abs(length_of(region, trace_path(geodesics.half_edges(), distances, v)) -
+                           expected) < 1e-10);
+        }
+    }
+
+    TEST_CASE("developable patches have the distances of their unrolled shapes") {
+        const Region region = test::cylinder(20);
+        const auto flat = [&](Index v) {
+            const Vec3& p = region.position(v);
+            return Vec2(std::atan2(p.x(), 40 - p.z()), p.y());
+        };
+        // The chords of the polygon that stands for the circle, not its arcs.
+        const double chord = 2 * 40 * std::sin(1.5 / 20 / 2) / (1.5 / 20);
+        const ExactGeodesics geodesics(region);
+        const auto distances = geodesics.from_vertex(110, Progress());
+        for (Index v = 0; v < static_cast<Index>(region.positions.size()); ++v) {
+            const Vec2 d = flat(v) - flat(110);
+            CHECK(at(distances, v) ==
+                  doctest::Approx(std::hypot(chord * d.x(), d.y())).epsilon(1e-12));
+        }
+    }
+
+    TEST_CASE(
+        "distances are the same both ways, and no path is longer than one over another vertex") {
+        const Region region = test::saddle(14);
+        const ExactGeodesics geodesics(region);
+        const auto n = static_cast<Index>(region.positions.size());
+        std::vector<GeodesicDistances> all;
+        for (Index v = 0; v < n; ++v) all.push_back(geodesics.from_vertex(v, Progress()));
+        double asymmetry = 0, excess = 0;
+        for (Index a = 0; a < n; ++a) {
+            for (Index b = 0; b < n; ++b) {
+                const auto& from_a = all[static_cast<std::size_t>(a)];
+                asymmetry = std::max(
+                    asymmetry, std::abs(at(from_a, b) - at(all[static_cast<std::size_t>(b)], a)));
+                for (Index via = 0; via < n; via += 7) {
+                    excess = std::max(excess, at(from_a, b) - at(from_a, via) -
+                                                  at(all[static_cast<std::size_t>(via)], b));
+                }
+            }
+        }
+        CHECK(asymmetry < 1e-10);
+        CHECK(excess < 1e-10);
+    }
+
+    TEST_CASE("a point in a face or on an edge is a source like the vertex it becomes when split") {
+        const Region region = test::dome(10, 1.0);
+        const ExactGeodesics geodesics(region);
+        for (const Vec3& weights :
+             {Vec3(0.2, 0.5, 0.3), Vec3(0.4, 0.6, 0.0), Vec3(1.0, 0.0, 0.0)}) {
+            const Index triangle = 83;
+            const Triangle corners = region.triangles[static_cast<std::size_t>(triangle)];
+            const auto distances = geodesics.from_point({triangle, weights}, Progress());
+            Vec3 place = Vec3::Zero();
+            for (std::size_t i = 0; i < 3; ++i)
+                place += weights[static_cast<Eigen::Index>(i)] * region.position(corners[i]);
+            // Known from the other side: the distance to a point lies under every corner's roof.
+            for (Index v = 0; v < static_cast<Index>(region.positions.size()); v += 5) {
+                const auto back = geodesics.from_vertex(v, Progress());
+                for (const Index c : corners) {
+                    CHECK(std::abs(at(back, c) - at(distances, v)) <=
+                          (region.position(c) - place).norm() + 1e-10);
+                }
+                const auto path = trace_path(geodesics.half_edges(), distances, v);
+                const double first =
+                    (place_of(path.points.front(), region.positions) - place).norm();
+                CHECK(first + length_of(region, path) ==
+                      doctest::Approx(at(distances, v)).epsilon(1e-10));
+            }
+        }
+    }
+
+    TEST_CASE("a path is as long as its distance") {
+        for (const Region& region : {test::dome(16, 1.3), test::saddle(17), test::cone(11)}) {
+            const ExactGeodesics geodesics(region);
+            const auto distances = geodesics.from_vertex(30, Progress());
+            for (Index v = 0; v < static_cast<Index>(region.positions.size()); ++v) {
+                const auto path = trace_path(geodesics.half_edges(), distances, v);
+                CHECK(path.points.front().a == 30);
+                CHECK(path.points.back().a == v);
+                CHECK(std::abs(length_of(region, path) - at(distances, v)) < 1e-10);
+            }
+        }
+    }
+
+    TEST_CASE("a cancelled run stops") {
+        Progress progress;
+        progress.cancel();
+        const Region region = test::dome(40, 1.0);
+        CHECK_THROWS_AS((void)ExactGeodesics(region).from_vertex(0, progress), Error);
+    }
+}
+
+}  // namespace lastflat
