@@ -199,6 +199,12 @@ FlattenRequest read_request(const Field& field, const RequestLimits& limits) {
         if (const auto arrangement = inner.find("arrangement")) (void)arrangement->choice({"pair"});
         inner.finish();
     }
+    if (const auto draw = reader.find("draw")) {
+        for (const Field& item : draw->items(limits.list)) {
+            (void)item.choice({"fan"});
+            request.draw_fan = true;
+        }
+    }
     if (const auto tag = reader.find("tag")) request.tag = tag->text(256);
     reader.finish();
     return request;

@@ -75,6 +75,7 @@ struct FlattenRequest {
     std::vector<RegionRequest> regions;
     std::vector<LockRequest> locks;
     MethodRequest method;
+    bool draw_fan = false;  ///< "draw": ["fan"]
     std::string tag;
 };
 

@@ -33,21 +33,36 @@ Json to_json(const MetricsResult& m) {
             {"border_crossings", m.border_crossings}};
 }
 
+Json to_json(const FanResult& f) {
+    Json spokes = Json::array();
+    for (const auto& s : f.spokes) {
+        spokes.push_back(
+            {{"index", s.index}, {"angle_deg", s.angle_deg}, {"distance_mm", s.distance_mm}});
+    }
+    return {{"centre_vertex", f.centre_vertex},
+            {"a_1_mm", f.a_1_mm},
+            {"a_inf_mm", f.a_inf_mm},
+            {"radius_mm", f.radius_mm},
+            {"spokes", std::move(spokes)}};
+}
+
 Json to_json(const RegionResult& r) {
     Json segments = Json::array(), curves = Json::array();
     for (const auto& s : r.segments) {
         segments.push_back({{"curve", s.curve}, {"first", s.first}, {"last", s.last}});
     }
     for (const auto& c : r.curves) curves.push_back(to_json(c));
-    return {{"name", r.name},
-            {"method", r.method},
-            {"uv_mm", r.uv_mm},
-            {"triangles", r.triangles},
-            {"source_vertices", r.source_vertices},
-            {"outline", {{"points_mm", r.outline_mm}, {"segments", std::move(segments)}}},
-            {"curves", std::move(curves)},
-            {"metrics", to_json(r.metrics)},
-            {"iterations", r.iterations}};
+    Json json{{"name", r.name},
+              {"method", r.method},
+              {"uv_mm", r.uv_mm},
+              {"triangles", r.triangles},
+              {"source_vertices", r.source_vertices},
+              {"outline", {{"points_mm", r.outline_mm}, {"segments", std::move(segments)}}},
+              {"curves", std::move(curves)},
+              {"metrics", to_json(r.metrics)},
+              {"iterations", r.iterations}};
+    if (r.fan) json["fan"] = to_json(*r.fan);
+    return json;
 }
 
 }  // namespace

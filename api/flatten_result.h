@@ -32,6 +32,17 @@ struct MetricsResult {
     std::int32_t flipped_triangles, border_crossings;
 };
 
+struct SpokeResult {
+    std::int32_t index;  ///< into uv_mm
+    double angle_deg, distance_mm;
+};
+
+struct FanResult {
+    std::int32_t centre_vertex;  ///< id of the file
+    double a_1_mm, a_inf_mm, radius_mm;
+    std::vector<SpokeResult> spokes;
+};
+
 struct RegionResult {
     std::string name, method;
     std::vector<Point> uv_mm;
@@ -42,6 +53,7 @@ struct RegionResult {
     std::vector<CurveResult> curves;
     MetricsResult metrics;
     int iterations;
+    std::optional<FanResult> fan;
 };
 
 struct PairResult {

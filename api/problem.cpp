@@ -19,6 +19,7 @@ nlohmann::ordered_json problem_json(const Problem& problem) {
                                 {"code", problem.code}};
     if (problem.pointer) json["pointer"] = *problem.pointer;
     if (problem.position) json["position"] = *problem.position;
+    if (!problem.triangles.empty()) json["triangles"] = problem.triangles;
     return json;
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lastflat::api {
 
@@ -14,6 +16,7 @@ struct Problem {
     std::string detail;                             ///< what, where, and the mend, for people
     std::optional<std::string> pointer;             ///< the field of the request at fault
     std::optional<std::array<double, 3>> position;  ///< the place on the last, mm
+    std::vector<std::array<std::int32_t, 3>> triangles{};  ///< at fault, by vertex ids of the file
 };
 
 /// application/problem+json.

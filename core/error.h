@@ -46,15 +46,23 @@ public:
         return *this;
     }
 
+    /// The triangles at fault, by the file's vertex ids.
+    Error& at_triangles(std::vector<Triangle> triangles) {
+        triangles_ = std::move(triangles);
+        return *this;
+    }
+
     [[nodiscard]] ErrorCode code() const { return code_; }
     /// The path as a JSON pointer (RFC 6901), such as "/curves/heel/vertices/12".
     [[nodiscard]] const std::optional<std::string>& option() const { return option_; }
     [[nodiscard]] const std::optional<Vec3>& position() const { return position_; }
+    [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
 
 private:
     ErrorCode code_;
     std::optional<std::string> option_;
     std::optional<Vec3> position_;
+    std::vector<Triangle> triangles_;
 };
 
 /// Something the caller should know although the job succeeded.

@@ -64,11 +64,51 @@ FlatRegion certified(const Region& region, const Chart& chart, const FlattenOpti
     return flat;
 }
 
+/// The start as it becomes the answer: at the least of its energy, or scaled as a whole.
+Minimum refined(const Region& region, Start start, const FlattenOptions& options,
+                const Progress& progress) {
+    const auto minimised = [&](const IsotropicEnergy& energy, const std::vector<Lock>& locks) {
+        return minimise_distortion(region, start.chart, length_constraints(region, locks), energy,
+                                   progress);
+    };
+    Minimum result;
+    switch (options.method.name) {
+        case MethodName::isometric: result = minimised(SymmetricDirichlet(), options.locks); break;
+        case MethodName::green_lagrange: result = minimised(GreenLagrange(), {}); break;
+        case MethodName::mips:
+            result = minimised(Mips(), {});
+            result.chart = scaled_to_locks(region, std::move(result.chart), options.locks);
+            break;
+        default: result.chart = scaled_to_locks(region, std::move(start.chart), options.locks);
+    }
+    result.warnings.insert(result.warnings.begin(), start.warnings.begin(), start.warnings.end());
+    return result;
+}
+
+struct Fan {
+    std::optional<GeodesicFan> fan;
+    std::vector<Warning> warnings;
+};
+
+/// The fan says where the chart lies and that it is sane; without it the chart is as good.
+Fan fan_of(const Region& region, const FlattenOptions& options, const Progress& progress) {
+    if (!options.draw_fan && region.triangles.size() > options.fan_triangles) return {};
+    try {
+        return {geodesic_fan(region, progress), {}};
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::solver_failed) throw;
+        return {std::nullopt,
+                {{"no_fan", "region '" + region.name + "' has no geodesic fan: " + error.what(),
+                  error.position()}}};
+    }
+}
+
 }  // namespace
 
 FlattenResult flatten(std::string_view model, const FlattenOptions& options, Progress& progress) {
     FlattenResult result;
     result.method = options.method.name;
+    result.draw_fan = options.draw_fan;
     Stopwatch total, watch;
 
     progress.reach(Stage::load, 0.0);
@@ -97,29 +137,35 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& options, Pro
 
     progress.reach(Stage::constrain, 0.5);
     std::vector<Minimum> minima(regions.size());
-    for_each_index(regions.size(), options.threads, [&](std::size_t r) {
-        minima[r] = options.method.name == MethodName::isometric
-                        ? minimise_distortion(regions[r], starts[r].chart,
-                                              length_constraints(regions[r], options.locks),
-                                              SymmetricDirichlet(), progress)
-                        : Minimum{scaled_to_locks(regions[r], starts[r].chart, options.locks)};
+    std::vector<Fan> fans(regions.size());
+    for_each_index(2 * regions.size(), options.threads, [&](std::size_t task) {
+        const std::size_t r = task % regions.size();
+        if (task < regions.size()) {
+            minima[r] = refined(regions[r], std::move(starts[r]), options, progress);
+        } else {
+            fans[r] = fan_of(regions[r], options, progress);
+        }
     });
     result.timing.constrain_ms = watch.lap();
 
     progress.reach(Stage::measure, 0.9);
     std::vector<Chart> charts;
+    std::vector<Index> centres;
     for (std::size_t r = 0; r < regions.size(); ++r) {
         charts.push_back(std::move(minima[r].chart));
-        for (auto* warnings : {&starts[r].warnings, &minima[r].warnings}) {
+        centres.push_back(fans[r].fan ? fans[r].fan->centre : -1);
+        for (auto* warnings : {&minima[r].warnings, &fans[r].warnings}) {
             std::move(warnings->begin(), warnings->end(), std::back_inserter(result.warnings));
         }
     }
-    orient_charts(regions, charts);
+    orient_charts(regions, centres, charts);
     result.sheet = arrange_pair(regions, charts, options.layout_gap_mm);
     result.pairs = measure_pairs(regions, charts);
     for (std::size_t r = 0; r < regions.size(); ++r) {
-        result.regions.push_back(certified(regions[r], charts[r], options, result.warnings));
-        result.regions.back().iterations = minima[r].iterations;
+        FlatRegion flat = certified(regions[r], charts[r], options, result.warnings);
+        flat.iterations = minima[r].iterations;
+        if (fans[r].fan) flat.fan = on_base_line(regions[r], charts[r], std::move(*fans[r].fan));
+        result.regions.push_back(std::move(flat));
     }
     result.timing.total_ms = total.lap();
     progress.reach(Stage::done, 1.0);

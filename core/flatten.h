@@ -5,6 +5,7 @@
 
 #include "core/constrain/length_constraints.h"
 #include "core/cut/cut.h"
+#include "core/geodesic/geodesic_fan.h"
 #include "core/layout/sheet.h"
 #include "core/load/load_model.h"
 #include "core/locate/curves.h"
@@ -23,6 +24,9 @@ struct FlattenOptions {
     CutOptions cut;
     std::vector<Lock> locks;
     MethodOptions method;
+    bool draw_fan = false;  ///< the geodesic fan in the drawing
+    /// Up to how many triangles of a region its fan is always computed; drawn, it always is.
+    std::size_t fan_triangles = 20'000;
     double layout_gap_mm = 10.0;
     std::size_t threads = 1;
 };
@@ -34,6 +38,7 @@ struct FlatRegion {
     Metrics metrics;
     std::vector<CurveReport> curves;
     int iterations = 0;  ///< Newton steps; 0 for methods without any
+    std::optional<GeodesicFan> fan{};
 };
 
 struct Timing {
@@ -47,6 +52,7 @@ struct FlattenResult {
     Sheet sheet;
     std::vector<Warning> warnings;
     Timing timing;
+    bool draw_fan = false;
 };
 
 /// Flattens a last.

@@ -34,6 +34,7 @@ api::Problem problem_of(const Error& error) {
     problem.detail = error.what();
     problem.pointer = error.option();
     if (const auto& p = error.position()) problem.position = {p->x(), p->y(), p->z()};
+    problem.triangles = error.triangles();
     return problem;
 }
 

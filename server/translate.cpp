@@ -34,35 +34,37 @@ CurveSource curve_of(const api::CurveRequest& curve) {
     return {curve.name, curve.vertices};
 }
 
+MethodName method_name(api::Method method) {
+    switch (method) {
+        case api::Method::tutte: return MethodName::tutte;
+        case api::Method::chord_length: return MethodName::chord_length;
+        case api::Method::shape_preserving: return MethodName::shape_preserving;
+        case api::Method::harmonic: return MethodName::harmonic;
+        case api::Method::wachspress: return MethodName::wachspress;
+        case api::Method::mean_value: return MethodName::mean_value;
+        case api::Method::virtual_border: return MethodName::virtual_border;
+        case api::Method::geodesic_fan: return MethodName::geodesic_fan;
+        case api::Method::mips: return MethodName::mips;
+        case api::Method::green_lagrange: return MethodName::green_lagrange;
+        case api::Method::isometric: return MethodName::isometric;
+    }
+    return MethodName::isometric;
+}
+
+BorderShape border_shape(api::Border border) {
+    switch (border) {
+        case api::Border::square: return BorderShape::square;
+        case api::Border::circle: return BorderShape::circle;
+        case api::Border::hull: return BorderShape::hull;
+        case api::Border::floating: return BorderShape::floating;
+    }
+    return BorderShape::circle;
+}
+
 MethodOptions method_of(const api::MethodRequest& request) {
     MethodOptions method;
-    switch (request.name) {
-        case api::Method::mean_value: method.name = MethodName::mean_value; break;
-        case api::Method::geodesic_fan: method.name = MethodName::geodesic_fan; break;
-        case api::Method::isometric: method.name = MethodName::isometric; break;
-        case api::Method::tutte:
-        case api::Method::chord_length:
-        case api::Method::shape_preserving:
-        case api::Method::harmonic:
-        case api::Method::wachspress:
-        case api::Method::virtual_border:
-        case api::Method::mips:
-        case api::Method::green_lagrange:
-            throw Error(
-                ErrorCode::unsupported_request,
-                "the method \"" + api::method_names()[static_cast<std::size_t>(request.name)] +
-                    "\" is not in this version; there are isometric, geodesic_fan and mean_value")
-                .at_option({"method", "name"});
-    }
-    switch (request.border.value_or(api::Border::circle)) {
-        case api::Border::circle: method.border = BorderShape::circle; break;
-        case api::Border::square: method.border = BorderShape::square; break;
-        case api::Border::hull:
-        case api::Border::floating:
-            throw Error(ErrorCode::unsupported_request,
-                        "this border is not in this version; there are circle and square")
-                .at_option({"method", "border"});
-    }
+    method.name = method_name(request.name);
+    if (request.border) method.border = border_shape(*request.border);
     method.angles = request.angles.value_or(api::Angles::curvature) == api::Angles::curvature
                         ? AngleRule::curvature
                         : AngleRule::averaged_conformal;
@@ -71,8 +73,16 @@ MethodOptions method_of(const api::MethodRequest& request) {
 
 std::string word(MethodName method) {
     switch (method) {
+        case MethodName::tutte: return "tutte";
+        case MethodName::chord_length: return "chord_length";
+        case MethodName::shape_preserving: return "shape_preserving";
+        case MethodName::harmonic: return "harmonic";
+        case MethodName::wachspress: return "wachspress";
         case MethodName::mean_value: return "mean_value";
+        case MethodName::virtual_border: return "virtual_border";
         case MethodName::geodesic_fan: return "geodesic_fan";
+        case MethodName::mips: return "mips";
+        case MethodName::green_lagrange: return "green_lagrange";
         case MethodName::isometric: return "isometric";
     }
     return {};
@@ -110,6 +120,19 @@ api::MetricsResult to_wire(const Metrics& m) {
             m.border_crossings};
 }
 
+api::FanResult to_wire(const GeodesicFan& fan, const Region& region) {
+    api::FanResult wire{region.source_vertices[static_cast<std::size_t>(fan.centre)],
+                        fan.mean_distance,
+                        fan.greatest_distance,
+                        fan.radius,
+                        {}};
+    for (std::size_t i = 0; i < fan.spokes.size(); ++i) {
+        wire.spokes.push_back({region.border[i], fan.spokes[i].angle * 180.0 / std::numbers::pi,
+                               fan.spokes[i].distance});
+    }
+    return wire;
+}
+
 api::RegionResult to_wire(const FlatRegion& flat, MethodName method) {
     api::RegionResult region;
     region.name = flat.region.name;
@@ -126,6 +149,7 @@ api::RegionResult to_wire(const FlatRegion& flat, MethodName method) {
     }
     region.metrics = to_wire(flat.metrics);
     region.iterations = flat.iterations;
+    if (flat.fan) region.fan = to_wire(*flat.fan, flat.region);
     return region;
 }
 
@@ -152,6 +176,7 @@ FlattenOptions to_options(const api::FlattenRequest& request) {
             {lock.curve, lock.keep == api::KeepLength::edges ? Keep::edges : Keep::total});
     }
     options.method = method_of(request.method);
+    options.draw_fan = request.draw_fan;
     return options;
 }
 

@@ -49,6 +49,60 @@ double sharpness(const Region& region, const std::array<std::size_t, 4>& corners
     return sum;
 }
 
+/// The exterior angle at each vertex of a counter-clockwise polygon.
+std::vector<double> turning_angles(const Points2& polygon) {
+    const std::size_t n = polygon.size();
+    std::vector<double> turning;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec2 in = polygon[i] - polygon[(i + n - 1) % n],
+                   out = polygon[(i + 1) % n] - polygon[i];
+        turning.push_back(std::atan2(cross(in, out), in.dot(out)));
+    }
+    return turning;
+}
+
+bool is_corner(double turning) {
+    constexpr double round_off = 1e-9;
+    return turning > round_off;
+}
+
+/// Per vertex the corner at which the side that leaves it begins.
+std::vector<std::size_t> sides(const std::vector<double>& turning) {
+    const std::size_t n = turning.size();
+    std::vector<std::size_t> side(n, 0);
+    std::size_t corner = 0;
+    for (std::size_t i = 0; i < 2 * n; ++i) {  // twice: the first ones belong to the last corner
+        if (is_corner(turning[i % n])) corner = i % n;
+        side[i % n] = corner;
+    }
+    return side;
+}
+
+/// Per corner, whether an edge inside the region has both ends on its side.
+std::vector<bool> chorded_sides(const Region& region, const std::vector<std::size_t>& side_of) {
+    const std::size_t n = region.border.size();
+    std::vector<Index> place(region.positions.size(), -1);
+    for (std::size_t i = 0; i < n; ++i) {
+        place[static_cast<std::size_t>(region.border[i])] = static_cast<Index>(i);
+    }
+    std::vector<bool> chorded(n, false);
+    for (const Triangle& t : region.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index a = place[static_cast<std::size_t>(t[k])];
+            const Index b = place[static_cast<std::size_t>(t[(k + 1) % 3])];
+            if (a < 0 || b < 0) continue;
+            const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+            if (j == (i + 1) % n || i == (j + 1) % n) continue;
+            // The side's last vertex is the next corner, on which the next side begins.
+            for (const auto& [from, to] : {std::pair(i, j), std::pair(j, i)}) {
+                const std::size_t side = side_of[from];
+                if (side_of[to] == side || side_of[(to + n - 1) % n] == side) chorded[side] = true;
+            }
+        }
+    }
+    return chorded;
+}
+
 }  // namespace
 
 Points2 circle_border(const Region& region) {
@@ -112,6 +166,28 @@ Points2 hull_border(const Points2& polygon) {
         }
     }
     return points;
+}
+
+Points2 bulged_under_chords(const Region& region, Points2 convex) {
+    const auto turning = turning_angles(convex);
+    const auto side_of = sides(turning);
+    const auto chorded = chorded_sides(region, side_of);
+    const std::size_t n = convex.size();
+    const Points2 straight = convex;
+    for (std::size_t first = 0; first < n; ++first) {
+        if (!is_corner(turning[first]) || !chorded[side_of[first]]) continue;
+        std::size_t last = first + 1;
+        while (!is_corner(turning[last % n])) ++last;
+        const Vec2 along = straight[last % n] - straight[first];
+        const Vec2 outward(along.y(), -along.x());
+        // A parabola of slope 4 h at its ends: both corners stay convex.
+        const double h = std::min({0.01, turning[first] / 8.0, turning[last % n] / 8.0});
+        for (std::size_t i = first + 1; i < last; ++i) {
+            const double t = (straight[i % n] - straight[first]).norm() / along.norm();
+            convex[i % n] += 4.0 * h * t * (1.0 - t) * outward;
+        }
+    }
+    return convex;
 }
 
 Points2 virtual_layer(const Points2& convex, double distance) {

@@ -17,6 +17,10 @@ namespace lastflat {
 /// Throws: Error{method_failed} if the polygon winds so that its hull has another order.
 [[nodiscard]] Points2 hull_border(const Points2& polygon);
 
+/// A convex border whose sides bulge by at most 1 % of their length where an edge inside the region
+/// joins two vertices of one side: straight, they would leave no room for what the edge cuts off.
+[[nodiscard]] Points2 bulged_under_chords(const Region& region, Points2 convex);
+
 /// One virtual partner for each vertex of a convex polygon, moved outward by `distance`: collinear
 /// vertices stay collinear, so the layer is convex as well.
 ///

@@ -78,8 +78,9 @@ SparseMatrix pattern(const Region& region, const std::vector<LengthConstraint>& 
 
 /// Three coordinates that hold the chart in place: both of one vertex, and of the vertex furthest
 /// from it the one across the line between them. A rigid motion costs nothing, so holding it takes
-/// nothing from the step; left free, its curvature away from the minimum may be negative.
-std::array<Index, 3> pinned_coordinates(const Eigen::VectorXd& x) {
+/// nothing from the step; left free, its curvature away from the minimum may be negative. Where the
+/// scale is free as well, the fourth holds it.
+std::vector<Index> pinned_coordinates(const Eigen::VectorXd& x, bool scale_free) {
     Index far = 0;
     double largest = -1.0;
     for (Index v = 1; 2 * v < x.size(); ++v) {
@@ -89,6 +90,7 @@ std::array<Index, 3> pinned_coordinates(const Eigen::VectorXd& x) {
         far = v;
     }
     const Vec2 between = (x.segment<2>(2 * far) - x.head<2>()).cwiseAbs();
+    if (scale_free) return {0, 1, 2 * far, 2 * far + 1};
     return {0, 1, 2 * far + (between.x() > between.y() ? 1 : 0)};
 }
 
@@ -153,7 +155,8 @@ double OptimalitySystem::fill(const Eigen::VectorXd& x, const Eigen::VectorXd& m
     double trace = 0.0;
     for (Index i = 0; i < unknowns_; ++i) trace += entry(i, i);
     const double mean = trace / unknowns_;
-    for (const Index i : pinned_coordinates(x)) entry(i, i) += tolerance::pin * mean;
+    for (const Index i : pinned_coordinates(x, distortion_.scale_free()))
+        entry(i, i) += tolerance::pin * mean;
     regularisation_ = tolerance::multiplier_regularisation / mean;
     for (Index k = 0; k < static_cast<Index>(constraints_.size()); ++k) {
         add_constraint(unknowns_ + k, x, multipliers[k], kind);

@@ -138,7 +138,21 @@ std::string label(const FlatRegion& flat, std::size_t run_index, const Points2& 
            label_text(flat.curves[run_index]) + "</text>\n";
 }
 
-std::string piece(const FlatRegion& flat, const Placement& placement, const Page& page) {
+/// The shortest paths on the last from the fan's centre to the border, as they lie in the flat.
+std::string fan_lines(const GeodesicFan& fan, const Points2& places, const Page& page) {
+    std::string d;
+    for (const FanSpoke& spoke : fan.spokes) {
+        Points2 line;
+        for (const PathPoint& point : spoke.path.points) line.push_back(place_of(point, places));
+        d += polyline(line, page, false);
+    }
+    const Vec2 centre = page(places[static_cast<std::size_t>(fan.centre)]);
+    return "<g class=\"fan\"><path d=\"" + d + "\"/><circle cx=\"" + number(centre.x()) +
+           "\" cy=\"" + number(centre.y()) + "\" r=\"1\"/></g>\n";
+}
+
+std::string piece(const FlatRegion& flat, const Placement& placement, const Page& page,
+                  bool draw_fan) {
     Points2 places;
     for (const Vec2& p : flat.chart.uv) places.push_back(placement.apply(p));
     Points2 outline;
@@ -149,8 +163,9 @@ std::string piece(const FlatRegion& flat, const Placement& placement, const Page
     }
     const std::string name = escaped(flat.region.name);
     std::string svg = "<g id=\"" + name + "\" class=\"piece\">\n<g class=\"stretch\">\n" +
-                      stretch_paths(flat, places, page) + "</g>\n<path class=\"cut\" d=\"" +
-                      polyline(outline, page, true) + "\"/>\n";
+                      stretch_paths(flat, places, page) + "</g>\n" +
+                      (draw_fan && flat.fan ? fan_lines(*flat.fan, places, page) : "") +
+                      "<path class=\"cut\" d=\"" + polyline(outline, page, true) + "\"/>\n";
     for (std::size_t i = 0; i < flat.region.runs.size(); ++i) {
         Points2 points;
         for (const Index v : flat.region.runs[i].vertices)
@@ -200,10 +215,11 @@ std::string write_svg(const FlattenResult& result) {
         "\">\n<style>.stretch path{stroke-width:.08}.cut{fill:none;stroke:#000;stroke-width:.25}"
         ".curve{fill:none;stroke:#0a7d38;stroke-width:.5}.locked{stroke:#c00000;stroke-width:.6}"
         "text{font:4px sans-serif;fill:#111}.name{font-size:7px}"
+        ".fan path{fill:none;stroke:#35618f;stroke-width:.12}.fan circle{fill:#35618f}"
         ".mark path{fill:none;stroke:#000;stroke-width:.3}</style>\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
     for (std::size_t r = 0; r < result.regions.size(); ++r) {
-        svg += piece(result.regions[r], result.sheet.placements[r], page);
+        svg += piece(result.regions[r], result.sheet.placements[r], page, result.draw_fan);
     }
     const double y = result.sheet.height + 2.0 * margin + 8.0;
     return svg + scale_bar(y) + colour_key(y, width - margin) + "</svg>\n";

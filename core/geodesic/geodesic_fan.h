@@ -15,7 +15,7 @@ struct FanSpoke {
 
 /// One spoke for each border vertex, in the order of the border. Angles are those of the conformal
 /// plane at the centre: the surface's, scaled so that they go round once. They count from the
-/// centre's first half-edge; `polar_base` in layout/ turns them to the pattern's base line.
+/// centre's first half-edge, until `on_base_line` turns them to the pattern's base line.
 struct GeodesicFan {
     Index centre;
     double mean_distance;      ///< A_1 of the centre, mm

@@ -73,7 +73,9 @@ std::vector<double> profile(const Points2& outline, double cell, std::size_t cel
 double profile_cell(const std::vector<Chart>& charts) {
     double largest = 0.0;
     for (const Chart& chart : charts) {
-        for (const Vec2& p : chart.uv) largest = std::max(largest, p.x());
+        Eigen::AlignedBox2d box;
+        for (const Vec2& p : chart.uv) box.extend(p);
+        largest = std::max(largest, box.sizes().x());
     }
     return std::max(1.0, largest / 4096.0);
 }

@@ -124,7 +124,8 @@ Vec3 long_axis(const std::vector<Region>& regions) {
     return skew < 0.0 ? Vec3(-axis) : axis;
 }
 
-void orient_charts(const std::vector<Region>& regions, std::vector<Chart>& charts) {
+void orient_charts(const std::vector<Region>& regions, const std::vector<Index>& centres,
+                   std::vector<Chart>& charts) {
     const Vec3 axis = long_axis(regions);
     for (std::size_t r = 0; r < regions.size(); ++r) {
         Points2& uv = charts[r].uv;
@@ -140,7 +141,8 @@ void orient_charts(const std::vector<Region>& regions, std::vector<Chart>& chart
             p = {along.dot(p), along.x() * p.y() - along.y() * p.x()};
             low = low.cwiseMin(p);
         }
-        for (Vec2& p : uv) p -= low;
+        const Vec2 origin = centres[r] < 0 ? low : uv[static_cast<std::size_t>(centres[r])];
+        for (Vec2& p : uv) p -= origin;
     }
 }
 

@@ -1,7 +1,7 @@
 // Where the flat pieces lie on the sheet.
 #pragma once
 
-#include "core/cut/region.h"
+#include "core/geodesic/geodesic_fan.h"
 #include "core/parameterize/chart.h"
 
 namespace lastflat {
@@ -22,13 +22,22 @@ struct Sheet {
 };
 
 /// Turns every chart so that it lies as a pattern is read: base line (from the seat to the toe
-/// point) along +x, lowest left corner of its box at the origin. Seat and toe point are the ends of
+/// point) along +x, the centre of its geodesic fan at the origin; without a fan, the lowest left
+/// corner of its box. Seat and toe point are the ends of
 /// the curves `heel` and `centre_front` (or its parts `toe` and `instep`) towards the longer
 /// stretch of border between them; where a region lacks them, the long axis of all regions in space
 /// takes the base line's place.
 ///
+/// In:  per region the centre of its fan, or -1.
 /// Out: charts that do not depend on how the last lay in space.
-void orient_charts(const std::vector<Region>& regions, std::vector<Chart>& charts);
+void orient_charts(const std::vector<Region>& regions, const std::vector<Index>& centres,
+                   std::vector<Chart>& charts);
+
+/// The fan with its angles counted from the direction in which the oriented chart's +x leaves the
+/// centre on the surface, in (-pi, pi]: of an isometry, the chart's own polar coordinates.
+///
+/// Paper: [kim-kim], section 3.1 (the polar base).
+[[nodiscard]] GeodesicFan on_base_line(const Region& region, const Chart& chart, GeodesicFan fan);
 
 /// The pieces one above the other, same way up, toe to the right, at least `gap` mm apart measured
 /// upward, as close as their outlines allow; a piece whose other side faces the viewer is mirrored.

@@ -19,6 +19,7 @@ public:
     Distortion(const Region& region, const IsotropicEnergy& energy);
 
     [[nodiscard]] double total_area() const { return total_area_; }
+    [[nodiscard]] bool scale_free() const { return energy_.scale_free(); }
 
     /// Infinite if a triangle is flipped or collapsed.
     [[nodiscard]] double value(const Eigen::VectorXd& x) const;

@@ -1,5 +1,7 @@
 // Based on: Smith, de Goes, Kim, "Analytic Eigensystems for Isotropic Distortion Energies", TOG
-// 2019; Smith, Schaefer, "Bijective Parameterization with Free Boundaries", SIGGRAPH 2015.
+// 2019; Smith, Schaefer, "Bijective Parameterization with Free Boundaries", SIGGRAPH 2015; Hormann,
+// Greiner, "MIPS: An Efficient Global Parametrization Method", 2000; Maillot, Yahia, Verroust,
+// "Interactive Texture Mapping", SIGGRAPH 1993.
 #include "core/parameterize/isotropic_energy.h"
 
 namespace lastflat {
@@ -21,6 +23,42 @@ EnergyDerivatives SymmetricDirichlet::derivatives(double s1, double s2) const {
     // The differences are divided out, so that s1 = s2 needs no limit.
     e.twist = 0.5 * (1.0 - (s1 * s1 - s1 * s2 + s2 * s2) * product);
     e.flip = 0.5 * (1.0 + (s1 * s1 + s1 * s2 + s2 * s2) * product);
+    return e;
+}
+
+double Mips::value(double s1, double s2) const {
+    return 0.5 * (s1 / s2 + s2 / s1);
+}
+
+EnergyDerivatives Mips::derivatives(double s1, double s2) const {
+    const double i1 = 1.0 / s1, i2 = 1.0 / s2;
+    EnergyDerivatives e{};
+    e.value = value(s1, s2);
+    e.d1 = 0.5 * (i2 - s2 * i1 * i1);
+    e.d2 = 0.5 * (i1 - s1 * i2 * i2);
+    e.d11 = s2 * i1 * i1 * i1;
+    e.d12 = -0.5 * (i1 * i1 + i2 * i2);
+    e.d22 = s1 * i2 * i2 * i2;
+    e.twist = -0.5 * (s1 - s2) * (s1 - s2) * i1 * i1 * i2 * i2;
+    e.flip = 0.5 * (s1 + s2) * (s1 + s2) * i1 * i1 * i2 * i2;
+    return e;
+}
+
+double GreenLagrange::value(double s1, double s2) const {
+    const double e1 = s1 * s1 - 1.0, e2 = s2 * s2 - 1.0;
+    return 1.0 + 0.25 * (e1 * e1 + e2 * e2);
+}
+
+EnergyDerivatives GreenLagrange::derivatives(double s1, double s2) const {
+    EnergyDerivatives e{};
+    e.value = value(s1, s2);
+    e.d1 = s1 * (s1 * s1 - 1.0);
+    e.d2 = s2 * (s2 * s2 - 1.0);
+    e.d11 = 3.0 * s1 * s1 - 1.0;
+    e.d12 = 0.0;
+    e.d22 = 3.0 * s2 * s2 - 1.0;
+    e.twist = s1 * s1 - s1 * s2 + s2 * s2 - 1.0;
+    e.flip = s1 * s1 + s1 * s2 + s2 * s2 - 1.0;
     return e;
 }
 

@@ -21,12 +21,35 @@ public:
     /// Only called with s2 > 0: a triangle that has flipped has infinite energy.
     [[nodiscard]] virtual double value(double s1, double s2) const = 0;
     [[nodiscard]] virtual EnergyDerivatives derivatives(double s1, double s2) const = 0;
+    /// Whether a uniform scale of the plane changes nothing.
+    [[nodiscard]] virtual bool scale_free() const { return false; }
 };
 
 /// (s1^2 + s2^2 + s1^-2 + s2^-2) / 4: one for an isometry, infinite for a collapse.
 ///
 /// Paper: [smith-2015], section 3; here divided by four.
 class SymmetricDirichlet final : public IsotropicEnergy {
+public:
+    [[nodiscard]] double value(double s1, double s2) const override;
+    [[nodiscard]] EnergyDerivatives derivatives(double s1, double s2) const override;
+};
+
+/// (s1 / s2 + s2 / s1) / 2: one for a similarity, infinite for a collapse.
+///
+/// Paper: [hormann-2000], section 3; here divided by two and weighed by the surface's area, so that
+/// the sum does not depend on how finely the surface is triangulated.
+class Mips final : public IsotropicEnergy {
+public:
+    [[nodiscard]] double value(double s1, double s2) const override;
+    [[nodiscard]] EnergyDerivatives derivatives(double s1, double s2) const override;
+    [[nodiscard]] bool scale_free() const override { return true; }
+};
+
+/// 1 + ((s1^2 - 1)^2 + (s2^2 - 1)^2) / 4: one for an isometry, and near it like the symmetric
+/// Dirichlet energy; finite for a collapse, which it does not prevent.
+///
+/// Paper: [maillot-1993], section 3: the norm of the Green-Lagrange tensor.
+class GreenLagrange final : public IsotropicEnergy {
 public:
     [[nodiscard]] double value(double s1, double s2) const override;
     [[nodiscard]] EnergyDerivatives derivatives(double s1, double s2) const override;

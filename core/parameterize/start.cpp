@@ -1,17 +1,24 @@
 #include "core/parameterize/start.h"
 
 #include "core/border/convex_border.h"
-#include "core/parameterize/geodesic_fan.h"
-#include "core/parameterize/mean_value.h"
+#include "core/parameterize/fixed_border.h"
+#include "core/parameterize/floating_border.h"
 
 namespace lastflat {
 namespace {
+
+Chart floating_chart(const Region& region, const std::vector<bool>& locked, WeightRule weights,
+                     AngleRule angles) {
+    const OneRings rings(region);
+    return flatten_floating_border(region, rings, weights,
+                                   border_polygon(region, rings, locked, angles));
+}
 
 /// Why the geodesic fan cannot be the start, or nothing and the chart.
 std::string try_fan(const Region& region, const std::vector<bool>& locked, AngleRule angles,
                     Chart& chart) {
     try {
-        chart = flatten_geodesic_fan(region, locked, angles);
+        chart = floating_chart(region, locked, mean_value_weights, angles);
     } catch (const Error& error) {
         return error.what();
     }
@@ -20,11 +27,11 @@ std::string try_fan(const Region& region, const std::vector<bool>& locked, Angle
     return std::to_string(flipped.size()) + " triangles of it are flipped";
 }
 
-Start isometric_start(const Region& region, const std::vector<bool>& locked, AngleRule angles) {
+Start energy_start(const Region& region, const std::vector<bool>& locked, AngleRule angles) {
     Start start;
     const std::string why = try_fan(region, locked, angles, start.chart);
     if (why.empty()) return start;
-    start.chart = flatten_mean_value(region, circle_border(region));
+    start.chart = flatten_fixed_border(region, mean_value_weights, circle_border(region));
     const auto flipped = flipped_triangles(region, start.chart.uv);
     if (!flipped.empty()) {
         const Vec3& where =
@@ -45,21 +52,78 @@ Start isometric_start(const Region& region, const std::vector<bool>& locked, Ang
     return start;
 }
 
+/// The two that have negative weights on obtuse or concave stars: how many, and where first.
+void warn_of_negative_weights(const Region& region, const OneRings& rings, WeightRule rule,
+                              std::vector<Warning>& warnings) {
+    std::size_t count = 0;
+    std::optional<Vec3> where;
+    for (Index v = 0; v < static_cast<Index>(region.positions.size()); ++v) {
+        if (rings.on_border(v)) continue;
+        for (const double weight : rule(surface_star(region, rings, v))) {
+            if (weight >= 0.0) continue;
+            ++count;
+            if (!where) where = region.position(v);
+        }
+    }
+    if (count > 0) {
+        warnings.push_back({"negative_weights",
+                            "region '" + region.name + "': " + std::to_string(count) +
+                                " weights are negative, the first at " + place(*where) +
+                                "; the map need not be free of folds",
+                            where});
+    }
+}
+
+WeightRule weight_rule(MethodName name) {
+    switch (name) {
+        case MethodName::tutte: return tutte_weights;
+        case MethodName::chord_length: return chord_length_weights;
+        case MethodName::virtual_border:
+        case MethodName::shape_preserving: return shape_preserving_weights;
+        case MethodName::harmonic: return harmonic_weights;
+        case MethodName::wachspress: return wachspress_weights;
+        case MethodName::mean_value:
+        case MethodName::geodesic_fan:
+        case MethodName::mips:
+        case MethodName::green_lagrange:
+        case MethodName::isometric: return mean_value_weights;
+    }
+    return mean_value_weights;
+}
+
+Points2 convex_border(const Region& region, const std::vector<bool>& locked, BorderShape shape,
+                      AngleRule angles) {
+    switch (shape) {
+        case BorderShape::square: return bulged_under_chords(region, square_border(region));
+        case BorderShape::hull: {
+            const OneRings rings(region);
+            return bulged_under_chords(
+                region, hull_border(border_polygon(region, rings, locked, angles).points));
+        }
+        case BorderShape::circle:
+        case BorderShape::floating: break;
+    }
+    return circle_border(region);
+}
+
 }  // namespace
 
 Start start_chart(const Region& region, const std::vector<bool>& locked_border,
                   const MethodOptions& method) {
-    switch (method.name) {
-        case MethodName::mean_value:
-            return {flatten_mean_value(region, method.border == BorderShape::circle
-                                                   ? circle_border(region)
-                                                   : square_border(region)),
-                    {}};
-        case MethodName::geodesic_fan:
-            return {flatten_geodesic_fan(region, locked_border, method.angles), {}};
-        case MethodName::isometric: return isometric_start(region, locked_border, method.angles);
+    if (is_energy(method.name)) return energy_start(region, locked_border, method.angles);
+    const WeightRule rule = weight_rule(method.name);
+    Start start;
+    if (rule == harmonic_weights || rule == wachspress_weights) {
+        warn_of_negative_weights(region, OneRings(region), rule, start.warnings);
     }
-    return {};
+    const bool floats = method.border == BorderShape::floating ||
+                        method.name == MethodName::virtual_border ||
+                        method.name == MethodName::geodesic_fan;
+    start.chart = floats ? floating_chart(region, locked_border, rule, method.angles)
+                         : flatten_fixed_border(
+                               region, rule,
+                               convex_border(region, locked_border, method.border, method.angles));
+    return start;
 }
 
 }  // namespace lastflat

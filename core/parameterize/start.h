@@ -1,5 +1,5 @@
 // The first chart of a region: the whole answer of the convex combination methods, the start of
-// `isometric`.
+// those that minimise an energy.
 #pragma once
 
 #include "core/error.h"
@@ -13,9 +13,12 @@ struct Start {
     std::vector<Warning> warnings;
 };
 
-/// In:     per border edge, whether its length is locked (see `flatten_geodesic_fan`).
-/// Out:    for `isometric` a chart without flipped triangles: the geodesic fan or, where that folds
-///         or fails, mean values on a circle, with the warning `start_replaced`.
+/// In:     per border edge, whether its length is locked (see `border_polygon`).
+/// Out:    for the energies a chart without flipped triangles: the geodesic fan or, where that
+/// folds
+///         or fails, mean values on a circle, with the warning `start_replaced`. For harmonic and
+///         wachspress the warning `negative_weights` where there are such weights: the map may then
+///         fold.
 /// Throws: Error{method_failed, solver_failed} if there is no such chart; other methods as they do.
 [[nodiscard]] Start start_chart(const Region& region, const std::vector<bool>& locked_border,
                                 const MethodOptions& method);

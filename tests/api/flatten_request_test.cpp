@@ -112,7 +112,7 @@ TEST_SUITE("api/flatten_request") {
     }
 
     TEST_CASE("an error lists what there is instead") {
-        CHECK(detail_of(R"({"seem": 1})").find("known here: curves, cuts, layout") !=
+        CHECK(detail_of(R"({"seem": 1})").find("known here: curves, cuts, draw, layout") !=
               std::string::npos);
         CHECK(detail_of(R"({"units": "feet"})") == "must be one of: mm, cm, m, in");
     }

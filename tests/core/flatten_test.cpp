@@ -74,7 +74,10 @@ TEST_SUITE("core/flatten") {
     TEST_CASE("methods without locks report what they leave, after one uniform scale") {
         const SampleLast last = make_sample_last();
         FlattenOptions options = test::sample_options(last);
-        for (const MethodName method : {MethodName::geodesic_fan, MethodName::mean_value}) {
+        for (const MethodName method :
+             {MethodName::tutte, MethodName::chord_length, MethodName::shape_preserving,
+              MethodName::mean_value, MethodName::virtual_border, MethodName::geodesic_fan,
+              MethodName::mips}) {
             options.method.name = method;
             const FlattenResult result = test::flatten_sample(last, options);
             for (const FlatRegion& flat : result.regions) {
@@ -89,6 +92,62 @@ TEST_SUITE("core/flatten") {
                 CHECK(flat.metrics.flipped_triangles == 0);
             }
         }
+    }
+
+    TEST_CASE("a map that folds is an error that names its triangles, never a result") {
+        // Slanted needles: cotangents are negative, and the harmonic map folds.
+        const Region region = test::grid(14, 4, [](double s, double t) {
+            return Vec3(100 * s + 160 * t, 6 * t, 12 * std::sin(5 * s) * t);
+        });
+        RawMesh mesh;
+        mesh.positions = region.positions;
+        mesh.triangles = region.triangles;
+        mesh.label_sets = {{"all"}};
+        mesh.triangle_labels.assign(mesh.triangles.size(), 0);
+        FlattenOptions options;
+        options.method = {MethodName::harmonic, BorderShape::circle};
+        Progress progress;
+        try {
+            (void)flatten(write_model_obj(mesh), options, progress);
+            FAIL("no error");
+        } catch (const Error& error) {
+            CHECK(error.code() == ErrorCode::method_failed);
+            REQUIRE(!error.triangles().empty());
+            CHECK(error.position().has_value());
+            for (const Index v : error.triangles().front()) {
+                CHECK(v < static_cast<Index>(mesh.positions.size()));
+            }
+        }
+    }
+
+    TEST_CASE(
+        "the fan is in the result: the chart's origin is its centre, its angles the chart's") {
+        const SampleLast last = make_sample_last();
+        const FlattenResult result = test::flatten_sample(last, test::sample_options(last));
+        for (const FlatRegion& flat : result.regions) {
+            REQUIRE(flat.fan);
+            CHECK(flat.chart.uv[static_cast<std::size_t>(flat.fan->centre)].norm() == 0.0);
+            CHECK(flat.fan->mean_distance < flat.fan->radius);
+            CHECK(flat.fan->spokes.size() == flat.region.border.size());
+            // A last is nearly developable: polar coordinates of the surface and of the chart
+            // nearly agree.
+            for (std::size_t i = 0; i < flat.fan->spokes.size(); ++i) {
+                const Vec2& p = flat.chart.uv[static_cast<std::size_t>(flat.region.border[i])];
+                const FanSpoke& spoke = flat.fan->spokes[i];
+                CHECK(std::abs(spoke.distance / p.norm() - 1) < 0.06);
+                CHECK(std::abs(std::remainder(spoke.angle - std::atan2(p.y(), p.x()),
+                                              6.283185307179586)) < 0.2);
+            }
+        }
+    }
+
+    TEST_CASE("a region beyond the bound has a fan only if it is drawn") {
+        const SampleLast last = make_sample_last();
+        FlattenOptions options = test::sample_options(last);
+        options.fan_triangles = 100;
+        CHECK(!test::flatten_sample(last, options).regions[0].fan);
+        options.draw_fan = true;
+        CHECK(test::flatten_sample(last, options).regions[0].fan.has_value());
     }
 
     TEST_CASE("a start that fails is replaced, and a warning says so") {

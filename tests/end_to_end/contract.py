@@ -292,7 +292,7 @@ def walk_submissions(walk, example):
 
     refused = [("invalid_request", 422, form((b"model", model), (b"request", b'{"lock": []}'))),
                ("invalid_request", 422, form((b"model", model), (b"request", b"{"))),
-               ("unsupported_request", 422, form((b"model", model), (b"request", b'{"method": {"name": "tutte"}}'))),
+               ("unsupported_request", 422, form((b"model", model), (b"request", b'{"curves": {"heel": {"polyline": [[0, 0, 0], [1, 1, 1]]}}}'))),
                ("model_missing", 422, form((b"request", b"{}"))), ("model_missing", 422, {"body": b""}),
                ("part_unknown", 400, form((b"model", model), (b"options", b"{}"))),
                ("part_repeated", 400, form((b"model", model), (b"model", model))),

@@ -141,3 +141,21 @@ PYTHON
         done
     done
 }
+
+@test "every method of the contract answers with a result, and the fan is drawn when asked for" {
+    start_server
+    methods='tutte chord_length shape_preserving harmonic wachspress mean_value virtual_border geodesic_fan mips green_lagrange'
+    for name in $methods; do
+        jq -c --arg name "$name" '.method = {name: $name} | .draw = ["fan"]' "$sample/last.request.json" > method.json
+        flatten "$sample/last.obj" method.json
+        curl -sSf "$url$job/result" -o "$name.json"
+        jq -e --arg name "$name" '.regions | length == 2 and all(.method == $name and .metrics.flipped_triangles == 0
+            and .fan.radius_mm > .fan.a_1_mm and (.fan.spokes | length) == (.outline.points_mm | length))' "$name.json"
+        curl -sSf "$url$job/result?format=svg" -o "$name.svg"
+        assert_equal "$(grep -c 'class="fan"' "$name.svg")" 2
+    done
+    for border in square circle hull floating; do
+        jq -c --arg border "$border" '.method = {name: "mean_value", border: $border}' "$sample/last.request.json" > method.json
+        flatten "$sample/last.obj" method.json
+    done
+}

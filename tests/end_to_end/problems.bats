@@ -96,12 +96,6 @@ fails_with() {
 
 @test "what belongs to the contract but not to this version is said so" {
     start_server
-    for change in '.method.name = "tutte"' '.method = {"name": "mean_value", "border": "hull"}'; do
-        jq -c "$change" "$sample/last.request.json" > "$request"
-        ask -F "model=@$sample/last.obj" -F "request=@$request" "$url/v1/jobs"
-        assert_problem 422 unsupported_request
-        jq -e '.pointer | startswith("/method/")' "$body"
-    done
     for form in '{"polyline": [[0,0,0],[9,9,9]]}' '{"from": "a", "to": "b"}' '{"border_of": {"groups": ["upper", "sole"]}}'; do
         jq -c ".curves.extra = $form" "$sample/last.request.json" > "$request"
         ask -F "model=@$sample/last.obj" -F "request=@$request" "$url/v1/jobs"

@@ -16,15 +16,17 @@ FlattenOptions options_of(std::uint8_t choice) {
     options.limits = fuzz::small_limits();
     options.limits.vertices = 400;
     options.limits.triangles = 800;
-    const MethodName methods[] = {MethodName::isometric, MethodName::isometric,
-                                  MethodName::geodesic_fan, MethodName::mean_value};
-    options.method.name = methods[choice % 4];
+    const int path = choice >> 4;  // edges of the curve; it is cut and locked
+    const MethodName locked[] = {MethodName::isometric, MethodName::isometric,
+                                 MethodName::geodesic_fan, MethodName::mean_value};
+    const MethodName free[] = {MethodName::mips, MethodName::green_lagrange, MethodName::harmonic,
+                               MethodName::virtual_border};
+    options.method.name = path == 0 && (choice & 8) != 0 ? free[choice % 4] : locked[choice % 4];
     options.method.angles =
         (choice & 4) != 0 ? AngleRule::averaged_conformal : AngleRule::curvature;
     options.method.border = (choice & 4) != 0 ? BorderShape::square : BorderShape::circle;
-    const int path = choice >> 4;  // edges of the curve; it is cut and locked
     if (path > 0) {
-        CurveSource curve{"heel", {}, {}};
+        CurveSource curve{"heel", {}};
         for (Index v = 0; v <= path; ++v) curve.vertices.push_back(v);
         options.curves.push_back(curve);
         options.locks.push_back({"heel", (choice & 8) != 0 ? Keep::total : Keep::edges});

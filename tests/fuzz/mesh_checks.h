@@ -23,7 +23,7 @@ inline LoadLimits small_limits() {
     limits.vertices = 20'000;
     limits.triangles = 20'000;
     limits.polygon_corners = 256;
-    limits.group_names = 64;
+    limits.name_sets = 64;
     return limits;
 }
 

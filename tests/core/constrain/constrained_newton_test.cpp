@@ -8,7 +8,7 @@
 #include "core/constrain/scale_to_locks.h"
 #include "core/measure/report.h"
 #include "core/parameterize/distortion.h"
-#include "core/parameterize/mean_value.h"
+#include "core/parameterize/fixed_border.h"
 #include "core/parameterize/start.h"
 #include "tests/helpers/shapes.h"
 
@@ -22,8 +22,9 @@ Minimum flattened(const Region& region, const std::vector<Lock>& locks = {}) {
 }
 
 Minimum flattened_from_circle(const Region& region, const std::vector<Lock>& locks = {}) {
-    return minimise_distortion(region, flatten_mean_value(region, circle_border(region)),
-                               length_constraints(region, locks), SymmetricDirichlet(), Progress());
+    return minimise_distortion(
+        region, flatten_fixed_border(region, mean_value_weights, circle_border(region)),
+        length_constraints(region, locks), SymmetricDirichlet(), Progress());
 }
 
 Points2 shadow(const Region& region) {
@@ -178,7 +179,7 @@ TEST_SUITE("core/constrain/constrained_newton") {
         Progress progress;
         progress.cancel();
         const Region region = test::dome();
-        const Chart start = flatten_mean_value(region, circle_border(region));
+        const Chart start = flatten_fixed_border(region, mean_value_weights, circle_border(region));
         CHECK_THROWS_AS(
             (void)minimise_distortion(region, start, {}, SymmetricDirichlet(), progress), Error);
     }

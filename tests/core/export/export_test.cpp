@@ -94,6 +94,18 @@ TEST_SUITE("core/export") {
             CHECK((1000.0 * glb.positions[v] - obj.positions[v]).norm() < 5e-5);
         }
     }
+
+    TEST_CASE("the fan is drawn when asked for, one line for each border vertex") {
+        CHECK(count(write_svg(result()), "class=\"fan\"") == 0);
+        FlattenResult drawn = result();
+        drawn.draw_fan = true;
+        const std::string svg = write_svg(drawn);
+        CHECK(count(svg, "class=\"fan\"") == 2);
+        std::size_t begin = svg.find("class=\"fan\""), spokes = 0;
+        for (std::size_t at = begin; at < svg.find("<circle", begin); ++at)
+            spokes += svg[at] == 'M';
+        CHECK(spokes == drawn.regions[0].region.border.size());
+    }
 }
 
 }  // namespace lastflat

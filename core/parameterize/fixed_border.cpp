@@ -1,16 +1,16 @@
-#include "core/parameterize/mean_value.h"
+#include "core/parameterize/fixed_border.h"
 
 #include "core/parameterize/convex_combination.h"
 
 namespace lastflat {
 
-Chart flatten_mean_value(const Region& region, const Points2& border) {
+Chart flatten_fixed_border(const Region& region, WeightRule weights, const Points2& border) {
     const OneRings rings(region);
     WeightRows rows(region.positions.size());
     for (std::size_t v = 0; v < rows.size(); ++v) {
         const auto vertex = static_cast<Index>(v);
         if (!rings.on_border(vertex)) {
-            rows[v] = mean_value_weights(surface_star(region, rings, vertex));
+            rows[v] = weighted_neighbours(surface_star(region, rings, vertex), weights);
         }
     }
     Points2 fixed(region.positions.size(), Vec2::Zero());

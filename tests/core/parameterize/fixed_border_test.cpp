@@ -1,4 +1,4 @@
-#include "core/parameterize/mean_value.h"
+#include "core/parameterize/fixed_border.h"
 
 #include <doctest/doctest.h>
 
@@ -17,10 +17,10 @@ Points2 flat_border(const Region& region) {
 
 }  // namespace
 
-TEST_SUITE("core/parameterize/mean_value") {
+TEST_SUITE("core/parameterize/fixed_border") {
     TEST_CASE("a flat region keeps its shape when its border is given") {  // linear precision
         const Region region = test::plane(10);
-        const Chart chart = flatten_mean_value(region, flat_border(region));
+        const Chart chart = flatten_fixed_border(region, mean_value_weights, flat_border(region));
         double largest = 0;
         for (std::size_t v = 0; v < chart.uv.size(); ++v) {
             largest = std::max(largest, (chart.uv[v] - region.positions[v].head<2>()).norm());
@@ -30,7 +30,9 @@ TEST_SUITE("core/parameterize/mean_value") {
 
     TEST_CASE("a strictly convex border never flips a triangle") {
         for (const Region& region : {test::dome(14, 1.4), test::saddle(15), test::cone(9)}) {
-            CHECK(flipped_triangles(region, flatten_mean_value(region, circle_border(region)).uv)
+            CHECK(flipped_triangles(
+                      region,
+                      flatten_fixed_border(region, mean_value_weights, circle_border(region)).uv)
                       .empty());
         }
     }
@@ -52,7 +54,8 @@ TEST_SUITE("core/parameterize/mean_value") {
                                 2.0 * std::sin(1.0 * static_cast<double>(i)));
             mean += border.back() / 6.0;
         }
-        CHECK((flatten_mean_value(region, border).uv[0] - mean).norm() < 1e-14);
+        CHECK((flatten_fixed_border(region, mean_value_weights, border).uv[0] - mean).norm() <
+              1e-14);
     }
 }
 

@@ -1,4 +1,4 @@
-#include "core/parameterize/geodesic_fan.h"
+#include "core/parameterize/floating_border.h"
 
 #include <doctest/doctest.h>
 
@@ -12,12 +12,16 @@ namespace {
 
 Chart fan(const Region& region, AngleRule rule = AngleRule::curvature) {
     const std::vector<bool> free(region.border.size(), false);
-    return scaled_to_locks(region, flatten_geodesic_fan(region, free, rule), {});
+    const OneRings rings(region);
+    return scaled_to_locks(region,
+                           flatten_floating_border(region, rings, mean_value_weights,
+                                                   border_polygon(region, rings, free, rule)),
+                           {});
 }
 
 }  // namespace
 
-TEST_SUITE("core/parameterize/geodesic_fan") {
+TEST_SUITE("core/parameterize/floating_border") {
     TEST_CASE("no triangle flips on curved regions, under either rule of angles") {
         for (const Region& region : {test::dome(), test::saddle(), test::cone(), test::plane()}) {
             CHECK(flipped_triangles(region, fan(region).uv).empty());
