@@ -8,7 +8,7 @@ set -euo pipefail
 run=(libcpp-httplib0.11 libtinygltf2d libopenmesh1 libspdlog1.10 curl ca-certificates)
 build=(g++ cmake ninja-build pkg-config libeigen3-dev libopenmesh-dev libtinygltf-dev
        nlohmann-json3-dev libcpp-httplib-dev libspdlog-dev libcli11-dev doctest-dev)
-test=(curl jq bats python3 python3-jsonschema procps clang-format-14 clang-tidy-14)
+test=(curl jq bats python3 python3-jsonschema procps clang-format-14 clang-tidy-14 libcgal-dev)
 
 wanted=()
 for set in "$@"; do
