@@ -3,6 +3,8 @@
 #include "core/border/border_angles.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -19,72 +21,117 @@ double corner_angle(const Region& region, Index apex, Index a, Index b) {
     return angle_at(region.position(apex), region.position(a), region.position(b));
 }
 
-/// The 3D angles around every vertex, summed.
-std::vector<double> angle_sums(const Region& region) {
-    std::vector<double> sums(region.positions.size(), 0.0);
+/// The angles of every triangle and half their cotangents: the weights of the facing sides.
+struct Corners {
+    std::vector<std::array<double, 3>> angles, half_cotangents;
+};
+
+Corners corners_of(const Region& region) {
+    Corners corners;
+    corners.angles.reserve(region.triangles.size());
+    corners.half_cotangents.reserve(region.triangles.size());
     for (const Triangle& t : region.triangles) {
+        const Vec3 sides[] = {region.position(t[2]) - region.position(t[1]),
+                              region.position(t[0]) - region.position(t[2]),
+                              region.position(t[1]) - region.position(t[0])};
+        const double doubled_area = sides[0].cross(sides[1]).norm();
+        auto& angles = corners.angles.emplace_back();
+        auto& cotangents = corners.half_cotangents.emplace_back();
         for (std::size_t i = 0; i < 3; ++i) {
-            sums[static_cast<std::size_t>(t[i])] +=
-                corner_angle(region, t[i], t[(i + 1) % 3], t[(i + 2) % 3]);
+            const double dot = -sides[(i + 1) % 3].dot(sides[(i + 2) % 3]);
+            angles[i] = std::atan2(doubled_area, dot);
+            cotangents[i] = 0.5 * dot / doubled_area;
+        }
+    }
+    return corners;
+}
+
+/// The 3D angles around every vertex, summed.
+std::vector<double> angle_sums(const Region& region, const Corners& corners) {
+    std::vector<double> sums(region.positions.size(), 0.0);
+    for (std::size_t t = 0; t < region.triangles.size(); ++t) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            sums[static_cast<std::size_t>(region.triangles[t][i])] += corners.angles[t][i];
         }
     }
     return sums;
 }
 
-/// Half the cotangent of the angle at t[i]: the weight of the side that faces it.
-double half_cotangent(const Region& region, const Triangle& t, std::size_t i) {
-    const Vec3 a = region.position(t[(i + 1) % 3]) - region.position(t[i]);
-    const Vec3 b = region.position(t[(i + 2) % 3]) - region.position(t[i]);
-    return 0.5 * a.dot(b) / a.cross(b).norm();
+/// Per vertex its place among the inner ones; -1 on the border.
+std::vector<Index> inner_places(const OneRings& rings, std::size_t vertices, Index& count) {
+    std::vector<Index> places(vertices, -1);
+    count = 0;
+    for (std::size_t v = 0; v < vertices; ++v) {
+        if (!rings.on_border(static_cast<Index>(v))) places[v] = count++;
+    }
+    return places;
+}
+
+/// The cotangent Laplacian between inner vertices, lower triangle.
+SparseMatrix inner_laplacian(const Region& region, const OneRings& rings, const Corners& corners,
+                             const std::vector<Index>& places, Index count) {
+    SparseMatrix A_ii(count, count);
+    A_ii.reserve(static_cast<Eigen::Index>(4) * count);
+    std::vector<Index> below;
+    for (std::size_t v = 0; v < places.size(); ++v) {
+        if (places[v] < 0) continue;
+        below.clear();
+        for (const Index w : rings.of(static_cast<Index>(v))) {
+            const Index row = places[static_cast<std::size_t>(w)];
+            if (row > places[v]) below.push_back(row);
+        }
+        std::sort(below.begin(), below.end());
+        A_ii.startVec(places[v]);
+        A_ii.insertBackByOuterInner(places[v], places[v]) = 0.0;
+        for (const Index row : below) A_ii.insertBackByOuterInner(places[v], row) = 0.0;
+    }
+    A_ii.finalize();
+    double* values = A_ii.valuePtr();
+    const auto* begin = A_ii.outerIndexPtr();
+    const auto* rows = A_ii.innerIndexPtr();
+    for (std::size_t t = 0; t < region.triangles.size(); ++t) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double weight = corners.half_cotangents[t][i];
+            const Index a = places[static_cast<std::size_t>(region.triangles[t][(i + 1) % 3])];
+            const Index b = places[static_cast<std::size_t>(region.triangles[t][(i + 2) % 3])];
+            if (a >= 0) values[begin[a]] += weight;
+            if (b >= 0) values[begin[b]] += weight;
+            if (a < 0 || b < 0) continue;
+            const auto [column, row] = std::minmax(a, b);
+            values[std::find(rows + begin[column], rows + begin[column + 1], row) - rows] -= weight;
+        }
+    }
+    return A_ii;
 }
 
 /// Scale factors u of the conformal map that keeps border lengths: A_II u = -Omega, u = 0 outside.
-std::vector<double> conformal_scale(const Region& region, const std::vector<double>& sums,
-                                    const std::vector<bool>& on_border) {
-    std::vector<Index> unknown(region.positions.size(), -1);
+std::vector<double> conformal_scale(const Region& region, const OneRings& rings,
+                                    const Corners& corners, const std::vector<double>& sums) {
     Index count = 0;
-    for (std::size_t v = 0; v < unknown.size(); ++v) {
-        if (!on_border[v]) unknown[v] = count++;
-    }
+    const auto places = inner_places(rings, region.positions.size(), count);
     std::vector<double> u(region.positions.size(), 0.0);
     if (count == 0) return u;
-    std::vector<Eigen::Triplet<double>> entries;
-    for (const Triangle& t : region.triangles) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Index a = unknown[static_cast<std::size_t>(t[(i + 1) % 3])];
-            const Index b = unknown[static_cast<std::size_t>(t[(i + 2) % 3])];
-            const double weight = half_cotangent(region, t, i);
-            if (a >= 0) entries.emplace_back(a, a, weight);
-            if (b >= 0) entries.emplace_back(b, b, weight);
-            if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), -weight);
-        }
-    }
-    SparseMatrix A_ii(count, count);
-    A_ii.setFromTriplets(entries.begin(), entries.end());
     Eigen::VectorXd omega(count);
-    for (std::size_t v = 0; v < unknown.size(); ++v) {
-        if (unknown[v] >= 0) omega[unknown[v]] = 2.0 * pi - sums[v];
+    for (std::size_t v = 0; v < places.size(); ++v) {
+        if (places[v] >= 0) omega[places[v]] = 2.0 * pi - sums[v];
     }
-    const Eigen::VectorXd solution = solve_spd(A_ii, -omega);
-    for (std::size_t v = 0; v < unknown.size(); ++v) {
-        if (unknown[v] >= 0) u[v] = solution[unknown[v]];
+    const Eigen::VectorXd solution =
+        solve_spd(inner_laplacian(region, rings, corners, places, count), -omega);
+    for (std::size_t v = 0; v < places.size(); ++v) {
+        if (places[v] >= 0) u[v] = solution[places[v]];
     }
     return u;
 }
 
 std::vector<double> curvature_turning(const Region& region, const OneRings& rings,
-                                      const std::vector<double>& sums) {
-    std::vector<bool> on_border(region.positions.size());
-    for (std::size_t v = 0; v < on_border.size(); ++v) {
-        on_border[v] = rings.on_border(static_cast<Index>(v));
-    }
-    const auto u = conformal_scale(region, sums, on_border);
+                                      const Corners& corners, const std::vector<double>& sums) {
+    const auto u = conformal_scale(region, rings, corners, sums);
     std::vector<double> flux(region.positions.size(), 0.0);  // A u
-    for (const Triangle& t : region.triangles) {
+    for (std::size_t t = 0; t < region.triangles.size(); ++t) {
         for (std::size_t i = 0; i < 3; ++i) {
-            const auto a = static_cast<std::size_t>(t[(i + 1) % 3]);
-            const auto b = static_cast<std::size_t>(t[(i + 2) % 3]);
-            const double flow = half_cotangent(region, t, i) * (u[a] - u[b]);
+            const auto a = static_cast<std::size_t>(region.triangles[t][(i + 1) % 3]);
+            const auto b = static_cast<std::size_t>(region.triangles[t][(i + 2) % 3]);
+            const double flow = corners.half_cotangents[t][i] * (u[a] - u[b]);
             flux[a] += flow;
             flux[b] -= flow;
         }
@@ -133,7 +180,8 @@ void close_turning(const Region& region, std::vector<double>& turning) {
 }  // namespace
 
 BorderAngles border_angles(const Region& region, const OneRings& rings, AngleRule rule) {
-    const auto sums = angle_sums(region);
+    const Corners triangles = corners_of(region);
+    const auto sums = angle_sums(region, triangles);
     BorderAngles result;
     for (const Index v : region.border) {
         const auto ring = rings.of(v);
@@ -146,7 +194,7 @@ BorderAngles border_angles(const Region& region, const OneRings& rings, AngleRul
         }
     }
     if (rule == AngleRule::curvature) {
-        result.turning = curvature_turning(region, rings, sums);
+        result.turning = curvature_turning(region, rings, triangles, sums);
     } else {
         for (const auto& corners : result.corners) {
             result.turning.push_back(pi - std::accumulate(corners.begin(), corners.end(), 0.0));

@@ -2,48 +2,71 @@
 // 1997.
 #include "core/parameterize/convex_combination.h"
 
+#include <algorithm>
+
 #include "core/numerics/dominant_lu.h"
 
 namespace lastflat {
 
-Points2 solve_convex_combinations(const WeightRows& rows, const Points2& fixed) {
-    std::vector<Index> unknown(rows.size(), -1);
-    Index count = 0;
-    std::size_t entries_count = 0;
-    for (std::size_t v = 0; v < rows.size(); ++v) {
-        if (rows[v].empty()) continue;
-        unknown[v] = count++;
-        entries_count += rows[v].size() + 1;
-    }
-    Points2 points = fixed;
-    if (count == 0) return points;
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(entries_count);
-    Eigen::MatrixXd b = Eigen::MatrixXd::Zero(count, 2);
-    bool dominant = true;
+namespace {
+
+/// A x = b for the unknown vertices: row by row the sum of the weights on the diagonal, minus the
+/// weights beside it; what is fixed stands on the right.
+struct MeanSystem {
+    Eigen::SparseMatrix<double, Eigen::RowMajor> A;
+    Eigen::MatrixXd b;
+    bool dominant = true;  ///< no weight is negative
+};
+
+MeanSystem mean_system(const WeightRows& rows, const Points2& fixed,
+                       const std::vector<Index>& unknown, Index count) {
+    MeanSystem system{{count, count}, Eigen::MatrixXd::Zero(count, 2)};
+    std::size_t entries = 0;
+    for (const auto& row : rows) entries += row.size() + 1;
+    system.A.reserve(static_cast<Eigen::Index>(entries));
+    std::vector<std::pair<Index, double>> line;
     for (std::size_t v = 0; v < rows.size(); ++v) {
         const Index row = unknown[v];
         if (row < 0) continue;
+        line.clear();
         double sum = 0.0;
         for (const auto& [neighbour, weight] : rows[v]) {
             const auto j = static_cast<std::size_t>(neighbour);
             sum += weight;
-            dominant = dominant && weight >= 0.0;
+            system.dominant = system.dominant && weight >= 0.0;
             if (unknown[j] >= 0) {
-                entries.emplace_back(row, unknown[j], -weight);
+                line.emplace_back(unknown[j], -weight);
             } else {
-                b.row(row) += weight * fixed[j].transpose();
+                system.b.row(row) += weight * fixed[j].transpose();
             }
         }
-        entries.emplace_back(row, row, sum);
+        line.emplace_back(row, sum);
+        std::sort(line.begin(), line.end());
+        system.A.startVec(row);
+        for (const auto& [column, value] : line) {
+            system.A.insertBackByOuterInner(row, column) = value;
+        }
     }
-    SparseMatrix A(count, count);
-    A.setFromTriplets(entries.begin(), entries.end());
-    const DominantLu factor(A);
-    Eigen::MatrixXd x = factor.solve(b);
-    // Negative weights take the guarantee of small pivots' absence away: refine what they cost.
-    for (int refinement = 0; refinement < (dominant ? 0 : 2); ++refinement) {
-        x += factor.solve(b - A * x);
+    system.A.finalize();
+    return system;
+}
+
+}  // namespace
+
+Points2 solve_convex_combinations(const WeightRows& rows, const Points2& fixed) {
+    std::vector<Index> unknown(rows.size(), -1);
+    Index count = 0;
+    for (std::size_t v = 0; v < rows.size(); ++v) {
+        if (!rows[v].empty()) unknown[v] = count++;
+    }
+    Points2 points = fixed;
+    if (count == 0) return points;
+    const MeanSystem system = mean_system(rows, fixed, unknown, count);
+    const DominantLu factor{SparseMatrix(system.A)};
+    Eigen::MatrixXd x = factor.solve(system.b);
+    // Negative weights take the guarantee against small pivots away: refine what they cost.
+    for (int refinement = 0; refinement < (system.dominant ? 0 : 2); ++refinement) {
+        x += factor.solve(system.b - system.A * x);
     }
     for (std::size_t v = 0; v < rows.size(); ++v) {
         if (unknown[v] >= 0) points[v] = x.row(unknown[v]).transpose();

@@ -1,8 +1,7 @@
 #include "core/parameterize/weights.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
-
-#include "core/numerics/polygon.h"
 
 namespace lastflat {
 
@@ -10,12 +9,17 @@ Star surface_star(const Region& region, const OneRings& rings, Index vertex) {
     Star star;
     const auto ring = rings.of(vertex);
     star.neighbours.assign(ring.begin(), ring.end());
-    star.distances.reserve(ring.size());
-    star.angles.reserve(ring.size());
-    for (std::size_t j = 0; j < ring.size(); ++j) {
-        star.distances.push_back(region.distance(vertex, ring[j]));
-        star.angles.push_back(angle_at(region.position(vertex), region.position(ring[j]),
-                                       region.position(ring[star.next(j)])));
+    const std::size_t n = ring.size();
+    star.distances.resize(n);
+    star.angles.resize(n);
+    const Vec3& centre = region.position(vertex);
+    const Vec3 first = region.position(ring[0]) - centre;
+    Vec3 spoke = first;
+    for (std::size_t j = 0; j < n; ++j) {
+        const Vec3 next = j + 1 < n ? Vec3(region.position(ring[j + 1]) - centre) : first;
+        star.distances[j] = spoke.norm();
+        star.angles[j] = std::atan2(spoke.cross(next).norm(), spoke.dot(next));
+        spoke = next;
     }
     return star;
 }
