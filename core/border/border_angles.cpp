@@ -57,33 +57,36 @@ std::vector<double> angle_sums(const Region& region, const Corners& corners) {
     return sums;
 }
 
-/// Per vertex its place among the inner ones; -1 on the border.
-std::vector<Index> inner_places(const OneRings& rings, std::size_t vertices, Index& count) {
-    std::vector<Index> places(vertices, -1);
-    count = 0;
-    for (std::size_t v = 0; v < vertices; ++v) {
-        if (!rings.on_border(static_cast<Index>(v))) places[v] = count++;
+/// The inner vertices in the order in which they are eliminated.
+std::vector<Index> inner_vertices(const OneRings& rings, const EliminationOrder& order) {
+    std::vector<Index> inner;
+    for (const Index v : order) {
+        if (!rings.on_border(v)) inner.push_back(v);
     }
-    return places;
+    return inner;
 }
 
-/// The cotangent Laplacian between inner vertices, lower triangle.
+/// The cotangent Laplacian between inner vertices in this order, lower triangle.
 SparseMatrix inner_laplacian(const Region& region, const OneRings& rings, const Corners& corners,
-                             const std::vector<Index>& places, Index count) {
+                             const std::vector<Index>& inner) {
+    const auto count = static_cast<Index>(inner.size());
+    std::vector<Index> places(region.positions.size(), -1);
+    for (Index k = 0; k < count; ++k) {
+        places[static_cast<std::size_t>(inner[static_cast<std::size_t>(k)])] = k;
+    }
     SparseMatrix A_ii(count, count);
     A_ii.reserve(static_cast<Eigen::Index>(4) * count);
     std::vector<Index> below;
-    for (std::size_t v = 0; v < places.size(); ++v) {
-        if (places[v] < 0) continue;
+    for (Index k = 0; k < count; ++k) {
         below.clear();
-        for (const Index w : rings.of(static_cast<Index>(v))) {
+        for (const Index w : rings.of(inner[static_cast<std::size_t>(k)])) {
             const Index row = places[static_cast<std::size_t>(w)];
-            if (row > places[v]) below.push_back(row);
+            if (row > k) below.push_back(row);
         }
         std::sort(below.begin(), below.end());
-        A_ii.startVec(places[v]);
-        A_ii.insertBackByOuterInner(places[v], places[v]) = 0.0;
-        for (const Index row : below) A_ii.insertBackByOuterInner(places[v], row) = 0.0;
+        A_ii.startVec(k);
+        A_ii.insertBackByOuterInner(k, k) = 0.0;
+        for (const Index row : below) A_ii.insertBackByOuterInner(k, row) = 0.0;
     }
     A_ii.finalize();
     double* values = A_ii.valuePtr();
@@ -106,26 +109,27 @@ SparseMatrix inner_laplacian(const Region& region, const OneRings& rings, const 
 
 /// Scale factors u of the conformal map that keeps border lengths: A_II u = -Omega, u = 0 outside.
 std::vector<double> conformal_scale(const Region& region, const OneRings& rings,
-                                    const Corners& corners, const std::vector<double>& sums) {
-    Index count = 0;
-    const auto places = inner_places(rings, region.positions.size(), count);
+                                    const EliminationOrder& order, const Corners& corners,
+                                    const std::vector<double>& sums) {
+    const auto inner = inner_vertices(rings, order);
     std::vector<double> u(region.positions.size(), 0.0);
-    if (count == 0) return u;
-    Eigen::VectorXd omega(count);
-    for (std::size_t v = 0; v < places.size(); ++v) {
-        if (places[v] >= 0) omega[places[v]] = 2.0 * pi - sums[v];
+    if (inner.empty()) return u;
+    Eigen::VectorXd omega(static_cast<Eigen::Index>(inner.size()));
+    for (std::size_t k = 0; k < inner.size(); ++k) {
+        omega[static_cast<Eigen::Index>(k)] = 2.0 * pi - sums[static_cast<std::size_t>(inner[k])];
     }
     const Eigen::VectorXd solution =
-        solve_spd(inner_laplacian(region, rings, corners, places, count), -omega);
-    for (std::size_t v = 0; v < places.size(); ++v) {
-        if (places[v] >= 0) u[v] = solution[places[v]];
+        solve_spd(inner_laplacian(region, rings, corners, inner), -omega);
+    for (std::size_t k = 0; k < inner.size(); ++k) {
+        u[static_cast<std::size_t>(inner[k])] = solution[static_cast<Eigen::Index>(k)];
     }
     return u;
 }
 
 std::vector<double> curvature_turning(const Region& region, const OneRings& rings,
-                                      const Corners& corners, const std::vector<double>& sums) {
-    const auto u = conformal_scale(region, rings, corners, sums);
+                                      const EliminationOrder& order, const Corners& corners,
+                                      const std::vector<double>& sums) {
+    const auto u = conformal_scale(region, rings, order, corners, sums);
     std::vector<double> flux(region.positions.size(), 0.0);  // A u
     for (std::size_t t = 0; t < region.triangles.size(); ++t) {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -179,7 +183,8 @@ void close_turning(const Region& region, std::vector<double>& turning) {
 
 }  // namespace
 
-BorderAngles border_angles(const Region& region, const OneRings& rings, AngleRule rule) {
+BorderAngles border_angles(const Region& region, const OneRings& rings,
+                           const EliminationOrder& order, AngleRule rule) {
     const Corners triangles = corners_of(region);
     const auto sums = angle_sums(region, triangles);
     BorderAngles result;
@@ -194,7 +199,7 @@ BorderAngles border_angles(const Region& region, const OneRings& rings, AngleRul
         }
     }
     if (rule == AngleRule::curvature) {
-        result.turning = curvature_turning(region, rings, triangles, sums);
+        result.turning = curvature_turning(region, rings, order, triangles, sums);
     } else {
         for (const auto& corners : result.corners) {
             result.turning.push_back(pi - std::accumulate(corners.begin(), corners.end(), 0.0));

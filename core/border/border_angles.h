@@ -24,9 +24,9 @@ struct BorderAngles {
 ///         Laplacian A, A u = -Gauss curvature inside, u = 0 on the border; the turning becomes
 ///         k + A u. `averaged_conformal`: [kim-kim], section 3.3; what is missing from 2 pi is
 ///         spread over the border in proportion to its length.
-/// In:     a region (a disk) and its rings.
+/// In:     a region (a disk), its rings and their elimination order.
 /// Throws: Error{solver_failed}.
 [[nodiscard]] BorderAngles border_angles(const Region& region, const OneRings& rings,
-                                         AngleRule rule);
+                                         const EliminationOrder& order, AngleRule rule);
 
 }  // namespace lastflat

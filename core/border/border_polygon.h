@@ -17,6 +17,7 @@ struct BorderPolygon {
 /// Throws: Error{method_failed} naming the curve if the polygon cannot be closed;
 ///         Error{solver_failed}.
 [[nodiscard]] BorderPolygon border_polygon(const Region& region, const OneRings& rings,
+                                           const EliminationOrder& order,
                                            const std::vector<bool>& locked, AngleRule rule);
 
 }  // namespace lastflat

@@ -43,4 +43,21 @@ OneRings::OneRings(const Region& region) : on_border_(border_mask(region)) {
     }
 }
 
+EliminationOrder elimination_order(const OneRings& rings) {
+    const Index n = rings.vertex_count();
+    SparseMatrix pattern(n, n);
+    pattern.reserve(static_cast<Eigen::Index>(7) * n);
+    std::vector<Index> column;
+    for (Index v = 0; v < n; ++v) {
+        const auto ring = rings.of(v);
+        column.assign(ring.begin(), ring.end());
+        column.push_back(v);
+        std::sort(column.begin(), column.end());
+        pattern.startVec(v);
+        for (const Index w : column) pattern.insertBackByOuterInner(v, w) = 1.0;
+    }
+    pattern.finalize();
+    return elimination_order(pattern);
+}
+
 }  // namespace lastflat

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/cut/region.h"
+#include "core/numerics/elimination_order.h"
 
 namespace lastflat {
 
@@ -22,6 +23,7 @@ public:
     [[nodiscard]] std::size_t triangle_count(Index vertex) const {
         return of(vertex).size() - (on_border(vertex) ? 1 : 0);
     }
+    [[nodiscard]] Index vertex_count() const { return static_cast<Index>(on_border_.size()); }
     [[nodiscard]] bool on_border(Index vertex) const {
         return on_border_[static_cast<std::size_t>(vertex)];
     }
@@ -31,5 +33,8 @@ private:
     std::vector<Index> neighbours_;
     std::vector<bool> on_border_;
 };
+
+/// An order of little fill for systems that tie every vertex of the region to its neighbours.
+[[nodiscard]] EliminationOrder elimination_order(const OneRings& rings);
 
 }  // namespace lastflat

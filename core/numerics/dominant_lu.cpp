@@ -1,7 +1,6 @@
 // Based on: Davis, "Direct Methods for Sparse Linear Systems", SIAM 2006.
 #include "core/numerics/dominant_lu.h"
 
-#include <Eigen/OrderingMethods>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -48,12 +47,8 @@ private:
 }  // namespace
 
 DominantLu::DominantLu(const SparseMatrix& matrix) {
-    Eigen::AMDOrdering<Index>()(matrix, order_);
-    const Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, Index> to_new = order_.inverse();
-    SparseMatrix permuted(matrix.rows(), matrix.cols());
-    permuted = matrix.twistedBy(to_new);
-    const SparseMatrix upper = permuted.triangularView<Eigen::Upper>();
-    const SparseMatrix lower = SparseMatrix(permuted.transpose()).triangularView<Eigen::Upper>();
+    const SparseMatrix upper = matrix.triangularView<Eigen::Upper>();
+    const SparseMatrix lower = SparseMatrix(matrix.transpose()).triangularView<Eigen::Upper>();
     analyse(upper);
     factor(lower, upper);
 }
@@ -121,7 +116,7 @@ void DominantLu::factor(const SparseMatrix& lower, const SparseMatrix& upper) {
 }
 
 Eigen::MatrixXd DominantLu::solve(const Eigen::MatrixXd& right_hand_side) const {
-    Eigen::MatrixXd x = order_.inverse() * right_hand_side;
+    Eigen::MatrixXd x = right_hand_side;
     const auto n = static_cast<Index>(D_.size());
     for (Eigen::Index column = 0; column < x.cols(); ++column) {
         double* v = x.col(column).data();
@@ -136,7 +131,7 @@ Eigen::MatrixXd DominantLu::solve(const Eigen::MatrixXd& right_hand_side) const 
             v[i] = sum;
         }
     }
-    return order_ * x;
+    return x;
 }
 
 }  // namespace lastflat

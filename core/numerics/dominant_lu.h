@@ -13,7 +13,7 @@ namespace lastflat {
 ///
 /// Paper:  [davis-2006], chapters 4 and 6 (up-looking, elimination tree).
 /// In:     a weakly diagonally dominant matrix (then the pivots cannot vanish unless it is
-///         singular), with every diagonal entry stored.
+///         singular), with every diagonal entry stored; its rows in an order of little fill.
 /// Throws: Error{solver_failed} if a pivot is zero or not finite.
 class DominantLu {
 public:
@@ -24,7 +24,6 @@ private:
     void analyse(const SparseMatrix& upper);
     void factor(const SparseMatrix& lower, const SparseMatrix& upper);
 
-    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, Index> order_;
     std::vector<Index> parent_;       ///< elimination tree
     std::vector<std::size_t> begin_;  ///< per column of L (row of U), its entries
     std::vector<Index> rows_;

@@ -7,7 +7,8 @@
 namespace lastflat {
 
 Eigen::MatrixXd solve_spd(const SparseMatrix& matrix, const Eigen::MatrixXd& right_hand_side) {
-    const Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower> factor(matrix);
+    const Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<Index>> factor(
+        matrix);
     if (factor.info() != Eigen::Success) {
         throw Error(ErrorCode::solver_failed, "a linear system is not positive definite");
     }

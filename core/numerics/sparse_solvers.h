@@ -9,7 +9,7 @@
 namespace lastflat {
 
 /// Solves `matrix` x = `right_hand_side` for a sparse symmetric positive definite matrix, given by
-/// its lower triangle.
+/// its lower triangle with its rows in an order of little fill.
 /// Throws: Error{solver_failed} if the matrix is not positive definite.
 [[nodiscard]] Eigen::MatrixXd solve_spd(const SparseMatrix& matrix,
                                         const Eigen::MatrixXd& right_hand_side);

@@ -19,23 +19,27 @@ struct MeanSystem {
 };
 
 MeanSystem mean_system(const WeightRows& rows, const Points2& fixed,
-                       const std::vector<Index>& unknown, Index count) {
+                       const std::vector<Index>& unknown) {
+    std::vector<Index> place(rows.size(), -1);
+    const auto count = static_cast<Index>(unknown.size());
+    for (Index row = 0; row < count; ++row) {
+        place[static_cast<std::size_t>(unknown[static_cast<std::size_t>(row)])] = row;
+    }
     MeanSystem system{{count, count}, Eigen::MatrixXd::Zero(count, 2)};
     std::size_t entries = 0;
     for (const auto& row : rows) entries += row.size() + 1;
     system.A.reserve(static_cast<Eigen::Index>(entries));
     std::vector<std::pair<Index, double>> line;
-    for (std::size_t v = 0; v < rows.size(); ++v) {
-        const Index row = unknown[v];
-        if (row < 0) continue;
+    for (Index row = 0; row < count; ++row) {
+        const auto v = static_cast<std::size_t>(unknown[static_cast<std::size_t>(row)]);
         line.clear();
         double sum = 0.0;
         for (const auto& [neighbour, weight] : rows[v]) {
             const auto j = static_cast<std::size_t>(neighbour);
             sum += weight;
             system.dominant = system.dominant && weight >= 0.0;
-            if (unknown[j] >= 0) {
-                line.emplace_back(unknown[j], -weight);
+            if (place[j] >= 0) {
+                line.emplace_back(place[j], -weight);
             } else {
                 system.b.row(row) += weight * fixed[j].transpose();
             }
@@ -53,23 +57,24 @@ MeanSystem mean_system(const WeightRows& rows, const Points2& fixed,
 
 }  // namespace
 
-Points2 solve_convex_combinations(const WeightRows& rows, const Points2& fixed) {
-    std::vector<Index> unknown(rows.size(), -1);
-    Index count = 0;
-    for (std::size_t v = 0; v < rows.size(); ++v) {
-        if (!rows[v].empty()) unknown[v] = count++;
+Points2 solve_convex_combinations(const WeightRows& rows, const Points2& fixed,
+                                  const EliminationOrder& order) {
+    std::vector<Index> unknown;
+    for (const Index v : order) {
+        if (!rows[static_cast<std::size_t>(v)].empty()) unknown.push_back(v);
     }
     Points2 points = fixed;
-    if (count == 0) return points;
-    const MeanSystem system = mean_system(rows, fixed, unknown, count);
+    if (unknown.empty()) return points;
+    const MeanSystem system = mean_system(rows, fixed, unknown);
     const DominantLu factor{SparseMatrix(system.A)};
     Eigen::MatrixXd x = factor.solve(system.b);
     // Negative weights take the guarantee against small pivots away: refine what they cost.
     for (int refinement = 0; refinement < (system.dominant ? 0 : 2); ++refinement) {
         x += factor.solve(system.b - system.A * x);
     }
-    for (std::size_t v = 0; v < rows.size(); ++v) {
-        if (unknown[v] >= 0) points[v] = x.row(unknown[v]).transpose();
+    for (std::size_t k = 0; k < unknown.size(); ++k) {
+        points[static_cast<std::size_t>(unknown[k])] =
+            x.row(static_cast<Eigen::Index>(k)).transpose();
     }
     return points;
 }

@@ -37,7 +37,8 @@ Star floating_star(const Region& region, const OneRings& rings, std::size_t i,
 
 }  // namespace
 
-Chart flatten_floating_border(const Region& region, const OneRings& rings, WeightRule weights,
+Chart flatten_floating_border(const Region& region, const OneRings& rings,
+                              const EliminationOrder& order, WeightRule weights,
                               const BorderPolygon& polygon) {
     const auto lengths = border_lengths(region);
     const double mean_edge =
@@ -57,7 +58,7 @@ Chart flatten_floating_border(const Region& region, const OneRings& rings, Weigh
     }
     Points2 fixed(region.positions.size(), Vec2::Zero());
     fixed.insert(fixed.end(), partners.begin(), partners.end());
-    Points2 points = solve_convex_combinations(rows, fixed);
+    Points2 points = solve_convex_combinations(rows, fixed, order);
     points.resize(region.positions.size());
     return {std::move(points)};
 }

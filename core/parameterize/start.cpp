@@ -10,8 +10,9 @@ namespace {
 Chart floating_chart(const Region& region, const std::vector<bool>& locked, WeightRule weights,
                      AngleRule angles) {
     const OneRings rings(region);
-    return flatten_floating_border(region, rings, weights,
-                                   border_polygon(region, rings, locked, angles));
+    const EliminationOrder order = elimination_order(rings);
+    return flatten_floating_border(region, rings, order, weights,
+                                   border_polygon(region, rings, order, locked, angles));
 }
 
 /// Why the geodesic fan cannot be the start, or nothing and the chart.
@@ -98,7 +99,9 @@ Points2 convex_border(const Region& region, const std::vector<bool>& locked, Bor
         case BorderShape::hull: {
             const OneRings rings(region);
             return bulged_under_chords(
-                region, hull_border(border_polygon(region, rings, locked, angles).points));
+                region,
+                hull_border(border_polygon(region, rings, elimination_order(rings), locked, angles)
+                                .points));
         }
         case BorderShape::circle:
         case BorderShape::floating: break;

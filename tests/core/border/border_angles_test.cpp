@@ -10,6 +10,11 @@
 namespace lastflat {
 namespace {
 
+BorderAngles angles_of(const Region& region, AngleRule rule) {
+    const OneRings rings(region);
+    return border_angles(region, rings, elimination_order(rings), rule);
+}
+
 using std::numbers::pi;
 
 double sum(const std::vector<double>& values) {
@@ -36,7 +41,7 @@ TEST_SUITE("core/border/border_angles") {
     TEST_CASE("both rules add up to a full turn on a curved region") {
         for (const AngleRule rule : {AngleRule::curvature, AngleRule::averaged_conformal}) {
             const Region region = test::dome(10, 0.9);
-            const auto angles = border_angles(region, OneRings(region), rule);
+            const auto angles = angles_of(region, rule);
             CHECK(sum(angles.turning) == doctest::Approx(2 * pi).epsilon(1e-12));
             for (std::size_t i = 0; i < angles.turning.size(); ++i) {
                 CHECK(sum(angles.corners[i]) ==
@@ -49,7 +54,7 @@ TEST_SUITE("core/border/border_angles") {
         for (const AngleRule rule : {AngleRule::curvature, AngleRule::averaged_conformal}) {
             const Region region = test::plane(7);
             const auto expected = flat_turning(region);
-            const auto angles = border_angles(region, OneRings(region), rule);
+            const auto angles = angles_of(region, rule);
             for (std::size_t i = 0; i < expected.size(); ++i) {
                 CHECK(angles.turning[i] == doctest::Approx(expected[i]).epsilon(1e-10));
             }
@@ -60,7 +65,7 @@ TEST_SUITE("core/border/border_angles") {
         // Gauss-Bonnet: on a curved disk the 3D turning lacks the inner curvature, and A u gives it
         // back. On a symmetric dome all four corners must therefore turn alike.
         const Region region = test::dome(8, 0.8);
-        const auto angles = border_angles(region, OneRings(region), AngleRule::curvature);
+        const auto angles = angles_of(region, AngleRule::curvature);
         std::vector<double> corners;
         for (std::size_t i = 0; i < region.border.size(); ++i) {
             const Index v = region.border[i];
@@ -81,7 +86,7 @@ TEST_SUITE("core/border/border_angles") {
                 {0, static_cast<Index>(1 + i), static_cast<Index>(1 + (i + 1) % 6)});
         }
         region.border = checked_border(region);
-        const auto angles = border_angles(region, OneRings(region), AngleRule::averaged_conformal);
+        const auto angles = angles_of(region, AngleRule::averaged_conformal);
         for (const auto& corners : angles.corners) {
             REQUIRE(corners.size() == 2);
             CHECK(corners[0] == doctest::Approx(pi / 3).epsilon(1e-12));

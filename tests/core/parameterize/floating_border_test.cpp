@@ -14,8 +14,9 @@ Chart fan(const Region& region, AngleRule rule = AngleRule::curvature) {
     const std::vector<bool> free(region.border.size(), false);
     const OneRings rings(region);
     return scaled_to_locks(region,
-                           flatten_floating_border(region, rings, mean_value_weights,
-                                                   border_polygon(region, rings, free, rule)),
+                           flatten_floating_border(
+                               region, rings, elimination_order(rings), mean_value_weights,
+                               border_polygon(region, rings, elimination_order(rings), free, rule)),
                            {});
 }
 
