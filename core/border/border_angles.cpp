@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "core/numerics/polygon.h"
-#include "core/numerics/sparse_solvers.h"
+#include "core/numerics/spd_cholesky.h"
 
 namespace lastflat {
 namespace {
@@ -21,40 +21,29 @@ double corner_angle(const Region& region, Index apex, Index a, Index b) {
     return angle_at(region.position(apex), region.position(a), region.position(b));
 }
 
-/// The angles of every triangle and half their cotangents: the weights of the facing sides.
+/// Half the cotangents of every triangle's angles (the weights of the facing sides), and per vertex
+/// the sum of its 3D angles.
 struct Corners {
-    std::vector<std::array<double, 3>> angles, half_cotangents;
+    std::vector<std::array<double, 3>> half_cotangents;
+    std::vector<double> angle_sums;
 };
 
 Corners corners_of(const Region& region) {
-    Corners corners;
-    corners.angles.reserve(region.triangles.size());
+    Corners corners{{}, std::vector<double>(region.positions.size(), 0.0)};
     corners.half_cotangents.reserve(region.triangles.size());
     for (const Triangle& t : region.triangles) {
         const Vec3 sides[] = {region.position(t[2]) - region.position(t[1]),
                               region.position(t[0]) - region.position(t[2]),
                               region.position(t[1]) - region.position(t[0])};
         const double doubled_area = sides[0].cross(sides[1]).norm();
-        auto& angles = corners.angles.emplace_back();
         auto& cotangents = corners.half_cotangents.emplace_back();
         for (std::size_t i = 0; i < 3; ++i) {
             const double dot = -sides[(i + 1) % 3].dot(sides[(i + 2) % 3]);
-            angles[i] = std::atan2(doubled_area, dot);
+            corners.angle_sums[static_cast<std::size_t>(t[i])] += std::atan2(doubled_area, dot);
             cotangents[i] = 0.5 * dot / doubled_area;
         }
     }
     return corners;
-}
-
-/// The 3D angles around every vertex, summed.
-std::vector<double> angle_sums(const Region& region, const Corners& corners) {
-    std::vector<double> sums(region.positions.size(), 0.0);
-    for (std::size_t t = 0; t < region.triangles.size(); ++t) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            sums[static_cast<std::size_t>(region.triangles[t][i])] += corners.angles[t][i];
-        }
-    }
-    return sums;
 }
 
 /// The inner vertices in the order in which they are eliminated.
@@ -66,7 +55,7 @@ std::vector<Index> inner_vertices(const OneRings& rings, const EliminationOrder&
     return inner;
 }
 
-/// The cotangent Laplacian between inner vertices in this order, lower triangle.
+/// The cotangent Laplacian between inner vertices in this order, upper triangle.
 SparseMatrix inner_laplacian(const Region& region, const OneRings& rings, const Corners& corners,
                              const std::vector<Index>& inner) {
     const auto count = static_cast<Index>(inner.size());
@@ -76,17 +65,17 @@ SparseMatrix inner_laplacian(const Region& region, const OneRings& rings, const 
     }
     SparseMatrix A_ii(count, count);
     A_ii.reserve(static_cast<Eigen::Index>(4) * count);
-    std::vector<Index> below;
+    std::vector<Index> above;
     for (Index k = 0; k < count; ++k) {
-        below.clear();
+        above.clear();
         for (const Index w : rings.of(inner[static_cast<std::size_t>(k)])) {
             const Index row = places[static_cast<std::size_t>(w)];
-            if (row > k) below.push_back(row);
+            if (row >= 0 && row < k) above.push_back(row);
         }
-        std::sort(below.begin(), below.end());
+        std::sort(above.begin(), above.end());
         A_ii.startVec(k);
+        for (const Index row : above) A_ii.insertBackByOuterInner(k, row) = 0.0;
         A_ii.insertBackByOuterInner(k, k) = 0.0;
-        for (const Index row : below) A_ii.insertBackByOuterInner(k, row) = 0.0;
     }
     A_ii.finalize();
     double* values = A_ii.valuePtr();
@@ -97,10 +86,10 @@ SparseMatrix inner_laplacian(const Region& region, const OneRings& rings, const 
             const double weight = corners.half_cotangents[t][i];
             const Index a = places[static_cast<std::size_t>(region.triangles[t][(i + 1) % 3])];
             const Index b = places[static_cast<std::size_t>(region.triangles[t][(i + 2) % 3])];
-            if (a >= 0) values[begin[a]] += weight;
-            if (b >= 0) values[begin[b]] += weight;
+            if (a >= 0) values[begin[a + 1] - 1] += weight;  // the diagonal comes last
+            if (b >= 0) values[begin[b + 1] - 1] += weight;
             if (a < 0 || b < 0) continue;
-            const auto [column, row] = std::minmax(a, b);
+            const auto [row, column] = std::minmax(a, b);
             values[std::find(rows + begin[column], rows + begin[column + 1], row) - rows] -= weight;
         }
     }
@@ -109,17 +98,17 @@ SparseMatrix inner_laplacian(const Region& region, const OneRings& rings, const 
 
 /// Scale factors u of the conformal map that keeps border lengths: A_II u = -Omega, u = 0 outside.
 std::vector<double> conformal_scale(const Region& region, const OneRings& rings,
-                                    const EliminationOrder& order, const Corners& corners,
-                                    const std::vector<double>& sums) {
+                                    const EliminationOrder& order, const Corners& corners) {
     const auto inner = inner_vertices(rings, order);
     std::vector<double> u(region.positions.size(), 0.0);
     if (inner.empty()) return u;
     Eigen::VectorXd omega(static_cast<Eigen::Index>(inner.size()));
     for (std::size_t k = 0; k < inner.size(); ++k) {
-        omega[static_cast<Eigen::Index>(k)] = 2.0 * pi - sums[static_cast<std::size_t>(inner[k])];
+        omega[static_cast<Eigen::Index>(k)] =
+            2.0 * pi - corners.angle_sums[static_cast<std::size_t>(inner[k])];
     }
     const Eigen::VectorXd solution =
-        solve_spd(inner_laplacian(region, rings, corners, inner), -omega);
+        SpdCholesky(inner_laplacian(region, rings, corners, inner)).solve(-omega);
     for (std::size_t k = 0; k < inner.size(); ++k) {
         u[static_cast<std::size_t>(inner[k])] = solution[static_cast<Eigen::Index>(k)];
     }
@@ -127,9 +116,8 @@ std::vector<double> conformal_scale(const Region& region, const OneRings& rings,
 }
 
 std::vector<double> curvature_turning(const Region& region, const OneRings& rings,
-                                      const EliminationOrder& order, const Corners& corners,
-                                      const std::vector<double>& sums) {
-    const auto u = conformal_scale(region, rings, order, corners, sums);
+                                      const EliminationOrder& order, const Corners& corners) {
+    const auto u = conformal_scale(region, rings, order, corners);
     std::vector<double> flux(region.positions.size(), 0.0);  // A u
     for (std::size_t t = 0; t < region.triangles.size(); ++t) {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -142,7 +130,7 @@ std::vector<double> curvature_turning(const Region& region, const OneRings& ring
     }
     std::vector<double> turning;
     for (const Index v : region.border) {
-        turning.push_back(pi - sums[static_cast<std::size_t>(v)] +
+        turning.push_back(pi - corners.angle_sums[static_cast<std::size_t>(v)] +
                           flux[static_cast<std::size_t>(v)]);
     }
     return turning;
@@ -186,7 +174,7 @@ void close_turning(const Region& region, std::vector<double>& turning) {
 BorderAngles border_angles(const Region& region, const OneRings& rings,
                            const EliminationOrder& order, AngleRule rule) {
     const Corners triangles = corners_of(region);
-    const auto sums = angle_sums(region, triangles);
+    const auto& sums = triangles.angle_sums;
     BorderAngles result;
     for (const Index v : region.border) {
         const auto ring = rings.of(v);
@@ -199,7 +187,7 @@ BorderAngles border_angles(const Region& region, const OneRings& rings,
         }
     }
     if (rule == AngleRule::curvature) {
-        result.turning = curvature_turning(region, rings, order, triangles, sums);
+        result.turning = curvature_turning(region, rings, order, triangles);
     } else {
         for (const auto& corners : result.corners) {
             result.turning.push_back(pi - std::accumulate(corners.begin(), corners.end(), 0.0));

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/numerics/elimination_tree.h"
 
 namespace lastflat {
 namespace {
@@ -14,70 +15,17 @@ std::size_t at(Index i) {
     return static_cast<std::size_t>(i);
 }
 
-/// Visits the columns i < k that row k of L reaches in the elimination tree, descendants first.
-/// `marks` holds, per column, the last row that visited it.
-class RowReach {
-public:
-    explicit RowReach(const std::vector<Index>& parent)
-        : parent_(parent), marks_(parent.size(), -1), stack_(parent.size()) {}
-
-    /// The pattern of row k, given the entries of column k of the upper triangle.
-    const Index* find(const SparseMatrix& upper, Index k, Index& count) {
-        const auto n = static_cast<Index>(parent_.size());
-        Index top = n;
-        marks_[at(k)] = k;
-        for (SparseMatrix::InnerIterator entry(upper, k); entry; ++entry) {
-            Index length = 0;
-            for (Index i = entry.index(); i < k && marks_[at(i)] != k; i = parent_[at(i)]) {
-                path_.resize(at(std::max(length + 1, static_cast<Index>(path_.size()))));
-                path_[at(length++)] = i;
-                marks_[at(i)] = k;
-            }
-            while (length > 0) stack_[at(--top)] = path_[at(--length)];
-        }
-        count = n - top;
-        return stack_.data() + top;
-    }
-
-private:
-    const std::vector<Index>& parent_;
-    std::vector<Index> marks_, stack_, path_;
-};
-
 }  // namespace
 
 DominantLu::DominantLu(const SparseMatrix& matrix) {
     const SparseMatrix upper = matrix.triangularView<Eigen::Upper>();
     const SparseMatrix lower = SparseMatrix(matrix.transpose()).triangularView<Eigen::Upper>();
-    analyse(upper);
-    factor(lower, upper);
-}
-
-void DominantLu::analyse(const SparseMatrix& upper) {
-    const auto n = static_cast<Index>(upper.cols());
-    parent_.assign(at(n), -1);
-    std::vector<Index> ancestor(at(n), -1);
-    std::vector<std::size_t> counts(at(n), 0);
-    for (Index k = 0; k < n; ++k) {  // Liu's algorithm, with path compression
-        for (SparseMatrix::InnerIterator entry(upper, k); entry; ++entry) {
-            for (Index i = entry.index(); i != -1 && i < k;) {
-                const Index next = std::exchange(ancestor[at(i)], k);
-                if (next == -1) parent_[at(i)] = k;
-                i = next;
-            }
-        }
-    }
-    RowReach reach(parent_);
-    for (Index k = 0; k < n; ++k) {
-        Index count = 0;
-        const Index* row = reach.find(upper, k, count);
-        for (Index j = 0; j < count; ++j) ++counts[at(row[j])];
-    }
-    begin_.assign(at(n) + 1, 0);
-    for (Index k = 0; k < n; ++k) begin_[at(k) + 1] = begin_[at(k)] + counts[at(k)];
+    parent_ = elimination_tree(upper);
+    begin_ = column_begins(upper, parent_, static_cast<Index>(upper.cols()));
     rows_.resize(begin_.back());
     L_.resize(begin_.back());
     U_.resize(begin_.back());
+    factor(lower, upper);
 }
 
 /// Row by row: z is row k of L D, y is column k of D U, both by substitution over the reach.
@@ -88,16 +36,15 @@ void DominantLu::factor(const SparseMatrix& lower, const SparseMatrix& upper) {
     std::vector<std::size_t> end(begin_.begin(), begin_.end() - 1);
     RowReach reach(parent_);
     for (Index k = 0; k < static_cast<Index>(n); ++k) {
-        Index count = 0;
-        const Index* row = reach.find(upper, k, count);
+        const auto row = reach.find(upper, k);
         for (SparseMatrix::InnerIterator entry(upper, k); entry; ++entry)
             y[at(entry.index())] = entry.value();
         for (SparseMatrix::InnerIterator entry(lower, k); entry; ++entry)
             z[at(entry.index())] = entry.value();
         double pivot = y[at(k)];
         y[at(k)] = z[at(k)] = 0.0;
-        for (Index j = 0; j < count; ++j) {
-            const std::size_t i = at(row[j]);
+        for (const Index column : row) {
+            const std::size_t i = at(column);
             const double y_i = std::exchange(y[i], 0.0), z_i = std::exchange(z[i], 0.0);
             for (std::size_t p = begin_[i]; p < end[i]; ++p) {
                 y[at(rows_[p])] -= L_[p] * y_i;

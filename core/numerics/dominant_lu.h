@@ -21,7 +21,6 @@ public:
     [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_side) const;
 
 private:
-    void analyse(const SparseMatrix& upper);
     void factor(const SparseMatrix& lower, const SparseMatrix& upper);
 
     std::vector<Index> parent_;       ///< elimination tree

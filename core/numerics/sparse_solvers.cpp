@@ -2,18 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "core/error.h"
-
 namespace lastflat {
-
-Eigen::MatrixXd solve_spd(const SparseMatrix& matrix, const Eigen::MatrixXd& right_hand_side) {
-    const Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<Index>> factor(
-        matrix);
-    if (factor.info() != Eigen::Success) {
-        throw Error(ErrorCode::solver_failed, "a linear system is not positive definite");
-    }
-    return factor.solve(right_hand_side);
-}
 
 struct QuasiDefiniteSolver::Factor {
     Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> ldlt;

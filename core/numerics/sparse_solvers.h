@@ -8,12 +8,6 @@
 
 namespace lastflat {
 
-/// Solves `matrix` x = `right_hand_side` for a sparse symmetric positive definite matrix, given by
-/// its lower triangle with its rows in an order of little fill.
-/// Throws: Error{solver_failed} if the matrix is not positive definite.
-[[nodiscard]] Eigen::MatrixXd solve_spd(const SparseMatrix& matrix,
-                                        const Eigen::MatrixXd& right_hand_side);
-
 /// LDL^T of symmetric quasi-definite matrices of one pattern: analysed once, factored often.
 class QuasiDefiniteSolver {
 public:

@@ -1,0 +1,94 @@
+// Based on: Davis, "Direct Methods for Sparse Linear Systems", SIAM 2006.
+#include "core/numerics/spd_cholesky.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "core/numerics/elimination_tree.h"
+
+namespace lastflat {
+namespace {
+
+std::size_t at(Index i) {
+    return static_cast<std::size_t>(i);
+}
+
+/// Where the columns begin that are at least a third full; the end, if those are too few to pay.
+Index tail_begin(const std::vector<std::size_t>& begin) {
+    constexpr Index fewest = 48;
+    const auto n = static_cast<Index>(begin.size()) - 1;
+    Index first = n;
+    while (first > 0) {
+        const std::size_t entries = begin[at(first)] - begin[at(first - 1)];
+        if (3 * entries < at(n - first)) break;
+        --first;
+    }
+    return n - first < fewest ? n : first;
+}
+
+[[noreturn]] void fail() {
+    throw Error(ErrorCode::solver_failed, "a linear system is not positive definite");
+}
+
+}  // namespace
+
+SpdCholesky::SpdCholesky(const SparseMatrix& upper) {
+    const auto n = static_cast<Index>(upper.cols());
+    const auto parent = elimination_tree(upper);
+    begin_ = column_begins(upper, parent, n);
+    const Index tail = tail_begin(begin_);
+    begin_.resize(at(tail) + 1);
+    rows_.resize(begin_.back());
+    L_.resize(begin_.back());
+    D_.resize(at(tail));
+    Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n - tail, n - tail);
+    std::vector<double> y(at(n), 0.0);  // row k of L D
+    std::vector<std::size_t> end(begin_.begin(), begin_.end() - 1);
+    RowReach reach(parent);
+    for (Index k = 0; k < n; ++k) {
+        const auto row = reach.find(upper, k);
+        for (SparseMatrix::InnerIterator entry(upper, k); entry; ++entry) {
+            y[at(entry.index())] = entry.value();
+        }
+        double pivot = std::exchange(y[at(k)], 0.0);
+        for (const Index column : row) {
+            if (column >= tail) continue;
+            const std::size_t i = at(column);
+            const double y_i = std::exchange(y[i], 0.0);
+            for (std::size_t p = begin_[i]; p < end[i]; ++p) y[at(rows_[p])] -= L_[p] * y_i;
+            pivot -= y_i * y_i / D_[i];
+            rows_[end[i]] = k;
+            L_[end[i]++] = y_i / D_[i];
+        }
+        if (k < tail) {
+            if (!(pivot > 0.0) || !std::isfinite(pivot)) fail();
+            D_[at(k)] = pivot;
+        } else {  // what is left of the row is the tail's Schur complement
+            S(k - tail, k - tail) = pivot;
+            for (Index j = tail; j < k; ++j) S(k - tail, j - tail) = std::exchange(y[at(j)], 0.0);
+        }
+    }
+    tail_.compute(S);
+    if (n > tail && tail_.info() != Eigen::Success) fail();
+}
+
+Eigen::VectorXd SpdCholesky::solve(const Eigen::VectorXd& right_hand_side) const {
+    Eigen::VectorXd x = right_hand_side;
+    const auto tail = static_cast<Index>(D_.size());
+    for (Index i = 0; i < tail; ++i) {
+        for (std::size_t p = begin_[at(i)]; p < begin_[at(i) + 1]; ++p) {
+            x[rows_[p]] -= L_[p] * x[i];
+        }
+    }
+    if (x.size() > tail) x.tail(x.size() - tail) = tail_.solve(x.tail(x.size() - tail)).eval();
+    for (Index i = tail; i-- > 0;) {
+        double sum = x[i] / D_[at(i)];
+        for (std::size_t p = begin_[at(i)]; p < begin_[at(i) + 1]; ++p) sum -= L_[p] * x[rows_[p]];
+        x[i] = sum;
+    }
+    return x;
+}
+
+}  // namespace lastflat
