@@ -93,6 +93,14 @@ struct Fan {
 /// The fan says where the chart lies and that it is sane; without it the chart is as good.
 Fan fan_of(const Region& region, const FlattenOptions& options, const Progress& progress) {
     if (!options.draw_fan && region.triangles.size() > options.fan_triangles) return {};
+    if (region.triangles.size() > options.drawn_fan_triangles) {
+        return {std::nullopt,
+                {{"no_fan",
+                  "region '" + region.name + "' has more than " +
+                      std::to_string(options.drawn_fan_triangles) +
+                      " triangles: its geodesic fan is not drawn",
+                  std::nullopt}}};
+    }
     try {
         return {geodesic_fan(region, progress), {}};
     } catch (const Error& error) {

@@ -25,8 +25,8 @@ struct FlattenOptions {
     std::vector<Lock> locks;
     MethodOptions method;
     bool draw_fan = false;  ///< the geodesic fan in the drawing
-    /// Up to how many triangles of a region its fan is always computed; drawn, it always is.
-    std::size_t fan_triangles = 20'000;
+    /// Up to how many triangles of a region its fan is computed, and if it is to be drawn.
+    std::size_t fan_triangles = 20'000, drawn_fan_triangles = 250'000;
     double layout_gap_mm = 10.0;
     std::size_t threads = 1;
 };

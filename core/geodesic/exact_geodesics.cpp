@@ -38,9 +38,13 @@ struct Window {
 /// later classes never improve what earlier ones have found by much.
 class Buckets {
 public:
-    explicit Buckets(double width) : width_(width) {}
+    Buckets(double width, std::size_t most) : width_(width), left_(most) {}
 
     void push(const Window& window, double distance) {
+        if (left_-- == 0) {
+            throw Error(ErrorCode::solver_failed,
+                        "the shortest paths on this surface are too many to follow");
+        }
         const auto bucket = std::max(current_, static_cast<std::size_t>(distance / width_));
         if (bucket >= buckets_.size()) buckets_.resize(bucket + 1);
         buckets_[bucket].push_back(window);
@@ -64,15 +68,17 @@ private:
     double width_;
     std::vector<std::vector<Window>> buckets_;
     std::size_t current_ = 0, next_ = 0;
+    std::size_t left_;  ///< how many more windows may come
 };
 
 class Propagation {
 public:
-    Propagation(const HalfEdges& half_edges, const std::vector<double>& total_angles)
+    Propagation(const HalfEdges& half_edges, const std::vector<double>& total_angles,
+                std::size_t most_windows)
         : half_edges_(half_edges),
           total_angles_(total_angles),
           splits_(static_cast<std::size_t>(half_edges.count())),
-          buckets_(0.3 * mean_length(half_edges)) {
+          buckets_(0.3 * mean_length(half_edges), most_windows) {
         result_.distance.assign(total_angles.size(), infinity);
         result_.arrivals.assign(total_angles.size(), {GeodesicDistances::no_root, -1, {0, 0}});
     }
@@ -289,7 +295,9 @@ private:
 
 }  // namespace
 
-ExactGeodesics::ExactGeodesics(const Region& region) : half_edges_(region) {
+ExactGeodesics::ExactGeodesics(const Region& region, std::size_t windows_per_half_edge)
+    : half_edges_(region),
+      most_windows_(windows_per_half_edge * static_cast<std::size_t>(half_edges_.count())) {
     total_angles_.assign(region.positions.size(), 0.0);
     for (Index v = 0; v < half_edges_.vertex_count(); ++v) {
         if (half_edges_.outgoing(v) < 0) continue;
@@ -302,7 +310,7 @@ ExactGeodesics::ExactGeodesics(const Region& region) : half_edges_(region) {
 }
 
 GeodesicDistances ExactGeodesics::from_vertex(Index vertex, const Progress& progress) const {
-    return Propagation(half_edges_, total_angles_).from_vertex(vertex, progress);
+    return Propagation(half_edges_, total_angles_, most_windows_).from_vertex(vertex, progress);
 }
 
 GeodesicDistances ExactGeodesics::from_point(const SurfacePoint& point,
@@ -312,7 +320,8 @@ GeodesicDistances ExactGeodesics::from_point(const SurfacePoint& point,
         return from_vertex(half_edges_.from(3 * point.triangle + static_cast<Index>(corner)),
                            progress);
     }
-    GeodesicDistances result = Propagation(half_edges_, total_angles_).from_point(point, progress);
+    GeodesicDistances result =
+        Propagation(half_edges_, total_angles_, most_windows_).from_point(point, progress);
     result.source = point;
     return result;
 }

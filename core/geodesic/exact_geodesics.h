@@ -43,9 +43,11 @@ struct GeodesicDistances {
 ///         depend on the number of windows, about n^1.5 on a smooth surface of n triangles.
 class ExactGeodesics {
 public:
-    explicit ExactGeodesics(const Region& region);
+    /// `windows_per_half_edge`: how many a run may make on average; smooth surfaces of a million
+    /// triangles take 200, malicious ones any number.
+    explicit ExactGeodesics(const Region& region, std::size_t windows_per_half_edge = 500);
 
-    /// Throws: Error{cancelled}.
+    /// Throws: Error{cancelled}; Error{solver_failed} if a run would make too many windows.
     [[nodiscard]] GeodesicDistances from_vertex(Index vertex, const Progress& progress) const;
     [[nodiscard]] GeodesicDistances from_point(const SurfacePoint& point,
                                                const Progress& progress) const;
@@ -54,6 +56,7 @@ public:
 
 private:
     HalfEdges half_edges_;
+    std::size_t most_windows_;
     std::vector<double> total_angles_;  ///< per vertex where paths may bend; 0: they cannot
 };
 

@@ -148,6 +148,11 @@ TEST_SUITE("core/flatten") {
         CHECK(!test::flatten_sample(last, options).regions[0].fan);
         options.draw_fan = true;
         CHECK(test::flatten_sample(last, options).regions[0].fan.has_value());
+        options.drawn_fan_triangles = 100;
+        const FlattenResult refused = test::flatten_sample(last, options);
+        CHECK(!refused.regions[0].fan);
+        REQUIRE(refused.warnings.size() == 2);
+        CHECK(refused.warnings[0].code == "no_fan");
     }
 
     TEST_CASE("a start that fails is replaced, and a warning says so") {

@@ -168,6 +168,12 @@ TEST_SUITE("core/geodesic/exact_geodesics") {
         }
     }
 
+    TEST_CASE("a surface that takes too many windows is given up") {
+        const Region region = test::dome(30, 1.2);
+        CHECK_THROWS_AS((void)ExactGeodesics(region, 1).from_vertex(400, Progress()), Error);
+        CHECK_NOTHROW((void)ExactGeodesics(region).from_vertex(400, Progress()));
+    }
+
     TEST_CASE("a cancelled run stops") {
         Progress progress;
         progress.cancel();
