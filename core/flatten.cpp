@@ -111,6 +111,29 @@ Fan fan_of(const Region& region, const FlattenOptions& options, const Progress& 
     }
 }
 
+/// The charts laid on the sheet, measured and found sound.
+void finish(const std::vector<Region>& regions, std::vector<Minimum> minima, std::vector<Fan> fans,
+            const FlattenOptions& options, FlattenResult& result) {
+    std::vector<Chart> charts;
+    std::vector<Index> centres;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        charts.push_back(std::move(minima[r].chart));
+        centres.push_back(fans[r].fan ? fans[r].fan->centre : -1);
+        for (auto* warnings : {&minima[r].warnings, &fans[r].warnings}) {
+            std::move(warnings->begin(), warnings->end(), std::back_inserter(result.warnings));
+        }
+    }
+    orient_charts(regions, centres, charts);
+    result.sheet = arrange_pair(regions, charts, options.layout_gap_mm);
+    result.pairs = measure_pairs(regions, charts);
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        FlatRegion flat = certified(regions[r], charts[r], options, result.warnings);
+        flat.iterations = minima[r].iterations;
+        if (fans[r].fan) flat.fan = on_base_line(regions[r], charts[r], std::move(*fans[r].fan));
+        result.regions.push_back(std::move(flat));
+    }
+}
+
 }  // namespace
 
 FlattenResult flatten(std::string_view model, const FlattenOptions& options, Progress& progress) {
@@ -157,24 +180,7 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& options, Pro
     result.timing.constrain_ms = watch.lap();
 
     progress.reach(Stage::measure, 0.9);
-    std::vector<Chart> charts;
-    std::vector<Index> centres;
-    for (std::size_t r = 0; r < regions.size(); ++r) {
-        charts.push_back(std::move(minima[r].chart));
-        centres.push_back(fans[r].fan ? fans[r].fan->centre : -1);
-        for (auto* warnings : {&minima[r].warnings, &fans[r].warnings}) {
-            std::move(warnings->begin(), warnings->end(), std::back_inserter(result.warnings));
-        }
-    }
-    orient_charts(regions, centres, charts);
-    result.sheet = arrange_pair(regions, charts, options.layout_gap_mm);
-    result.pairs = measure_pairs(regions, charts);
-    for (std::size_t r = 0; r < regions.size(); ++r) {
-        FlatRegion flat = certified(regions[r], charts[r], options, result.warnings);
-        flat.iterations = minima[r].iterations;
-        if (fans[r].fan) flat.fan = on_base_line(regions[r], charts[r], std::move(*fans[r].fan));
-        result.regions.push_back(std::move(flat));
-    }
+    finish(regions, std::move(minima), std::move(fans), options, result);
     result.timing.total_ms = total.lap();
     progress.reach(Stage::done, 1.0);
     return result;
