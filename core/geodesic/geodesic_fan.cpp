@@ -16,22 +16,23 @@ namespace {
 using std::numbers::pi;
 
 /// The direction in which a path leaves its source vertex, in the vertex's conformal plane.
-double angle_of_departure(const Region& region, const HalfEdges& half_edges, Index vertex,
+double angle_of_departure(const Region& region, const ConformalPlane& plane, Index vertex,
                           const GeodesicPath& path) {
     const PathPoint& second = path.points[1];
-    const Vec3 place = place_of(second, region.positions);
-    const Index first = half_edges.outgoing(vertex);
-    for (Index h = first; h >= 0;) {
-        const Index a = half_edges.to(h), b = half_edges.apex(h);
-        const bool along_edge = second.a == second.b && (second.a == a || second.a == b);
-        const bool through =
-            second.a != second.b && std::minmax(second.a, second.b) == std::minmax(a, b);
-        if (along_edge || through) {
-            return conformal_angle(half_edges, h,
-                                   angle_at(region.position(vertex), region.position(a), place));
-        }
-        h = half_edges.rotated(h);
-        if (h == first) break;
+    const auto angle_in = [&](const ConformalPlane::Corner& corner) {
+        return corner.begin + corner.scale * angle_at(region.position(vertex),
+                                                      region.position(corner.to),
+                                                      place_of(second, region.positions));
+    };
+    const auto* from_a = plane.side_to(second.a);
+    if (second.a == second.b) {
+        if (from_a != nullptr) return from_a->begin;
+        const auto& last = plane.corners().back();  // the border's second edge begins no triangle
+        if (last.apex == second.a) return angle_in(last);
+    } else {
+        if (from_a != nullptr && from_a->apex == second.b) return angle_in(*from_a);
+        const auto* from_b = plane.side_to(second.b);
+        if (from_b != nullptr && from_b->apex == second.a) return angle_in(*from_b);
     }
     throw Error(ErrorCode::solver_failed, "a spoke of the geodesic fan has no direction");
 }
@@ -50,15 +51,25 @@ double mean_over_surface(const Region& region, const std::vector<double>& values
 
 }  // namespace
 
-double conformal_angle(const HalfEdges& half_edges, Index half_edge, double beyond) {
-    const Index vertex = half_edges.from(half_edge);
-    double before = 0.0;
-    for (Index h = half_edges.outgoing(vertex); h != half_edge; h = half_edges.rotated(h)) {
-        before += half_edges.angle(h);
-    }
+ConformalPlane::ConformalPlane(const HalfEdges& half_edges, Index vertex) {
     const double scale =
         half_edges.on_border(vertex) ? 1.0 : 2.0 * pi / half_edges.total_angle(vertex);
-    return scale * (before + beyond);
+    const Index first = half_edges.outgoing(vertex);
+    double begin = 0.0;
+    for (Index h = first; h >= 0;) {
+        by_side_.emplace_back(half_edges.to(h), corners_.size());
+        corners_.push_back({half_edges.to(h), half_edges.apex(h), begin, scale});
+        begin += scale * half_edges.angle(h);
+        h = half_edges.rotated(h);
+        if (h == first) break;
+    }
+    std::sort(by_side_.begin(), by_side_.end());
+}
+
+const ConformalPlane::Corner* ConformalPlane::side_to(Index to) const {
+    const auto found =
+        std::lower_bound(by_side_.begin(), by_side_.end(), std::pair(to, std::size_t{0}));
+    return found != by_side_.end() && found->first == to ? &corners_[found->second] : nullptr;
 }
 
 GeodesicFan geodesic_fan(const Region& region, const Progress& progress) {
@@ -71,12 +82,13 @@ GeodesicFan geodesic_fan(const Region& region, const Progress& progress) {
                     centre.radius,
                     {},
                     centre.runs};
+    const ConformalPlane plane(geodesics.half_edges(), centre.vertex);
     for (const Index v : region.border) {
         fan.spokes.push_back({0.0, distance[static_cast<std::size_t>(v)],
                               trace_path(geodesics.half_edges(), centre.distances, v)});
         if (v == centre.vertex) continue;  // only where no vertex is inner
-        fan.spokes.back().angle = angle_of_departure(region, geodesics.half_edges(), centre.vertex,
-                                                     fan.spokes.back().path);
+        fan.spokes.back().angle =
+            angle_of_departure(region, plane, centre.vertex, fan.spokes.back().path);
     }
     return fan;
 }

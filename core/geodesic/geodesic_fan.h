@@ -30,8 +30,24 @@ struct GeodesicFan {
 /// Throws: Error{cancelled}; Error{solver_failed}.
 [[nodiscard]] GeodesicFan geodesic_fan(const Region& region, const Progress& progress);
 
-/// The angle of a direction that leaves the vertex inside the triangle of `half_edge` (which begins
-/// there), `beyond` radians from that half-edge, in the conformal plane of the vertex.
-[[nodiscard]] double conformal_angle(const HalfEdges& half_edges, Index half_edge, double beyond);
+/// The triangles around a vertex in its conformal plane: angles scaled so that they go round once
+/// (on the border: as they are).
+class ConformalPlane {
+public:
+    struct Corner {
+        Index to, apex;       ///< the triangle's other vertices, counter-clockwise
+        double begin, scale;  ///< radians: where the side to `to` lies; plane over surface
+    };
+    ConformalPlane(const HalfEdges& half_edges, Index vertex);
+
+    /// Counter-clockwise, from the vertex's first half-edge.
+    [[nodiscard]] const std::vector<Corner>& corners() const { return corners_; }
+    /// The corner whose side runs to `to`, nullptr if there is none.
+    [[nodiscard]] const Corner* side_to(Index to) const;
+
+private:
+    std::vector<Corner> corners_;
+    std::vector<std::pair<Index, std::size_t>> by_side_;  ///< sorted
+};
 
 }  // namespace lastflat

@@ -12,29 +12,25 @@ namespace {
 /// plane of the centre. From a centre on the border +x may leave the region: then the border edge
 /// nearest to it stands in.
 double polar_base(const Region& region, const Points2& uv, Index centre) {
-    const HalfEdges half_edges(region);
+    const ConformalPlane plane(HalfEdges(region), centre);
     const auto at = [&](Index v) -> const Vec2& { return uv[static_cast<std::size_t>(v)]; };
-    const Index first = half_edges.outgoing(centre);
+    const Vec3& origin = region.position(centre);
     double nearest = -HUGE_VAL, base = 0.0;
-    for (Index h = first; h >= 0;) {
-        const Index a = half_edges.to(h), b = half_edges.apex(h);
-        const Vec2 to_a = at(a) - at(centre), to_b = at(b) - at(centre);
+    for (const ConformalPlane::Corner& corner : plane.corners()) {
+        const Vec2 to_a = at(corner.to) - at(centre), to_b = at(corner.apex) - at(centre);
         const double area = cross(to_a, to_b);
         const double of_a = cross(Vec2::UnitX(), to_b) / area;
         const double of_b = cross(to_a, Vec2::UnitX()) / area;
         if (of_a >= 0.0 && of_b >= 0.0) {
-            const Vec3& origin = region.position(centre);
-            const Vec3 direction =
-                of_a * (region.position(a) - origin) + of_b * (region.position(b) - origin);
-            return conformal_angle(half_edges, h,
-                                   angle_at<Vec3>(origin, region.position(a), origin + direction));
+            const Vec3 direction = of_a * (region.position(corner.to) - origin) +
+                                   of_b * (region.position(corner.apex) - origin);
+            return corner.begin + corner.scale * angle_at<Vec3>(origin, region.position(corner.to),
+                                                                origin + direction);
         }
         if (to_a.normalized().x() > nearest) {
             nearest = to_a.normalized().x();
-            base = conformal_angle(half_edges, h, 0.0);
+            base = corner.begin;
         }
-        h = half_edges.rotated(h);
-        if (h == first) break;
     }
     return base;
 }

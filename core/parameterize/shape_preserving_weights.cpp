@@ -26,6 +26,10 @@ std::vector<double> polar_map(const Star& star) {
 std::vector<double> shape_preserving_weights(const Star& star) {
     const std::size_t n = star.size();
     const auto directions = polar_map(star);
+    for (std::size_t j = 0; j < n; ++j) {
+        constexpr double largest = 3.1;  // as for mean values: nearly pi
+        if (directions[j + 1] - directions[j] > largest) return mean_value_weights(star);
+    }
     Points2 places;
     for (std::size_t j = 0; j < n; ++j) {
         places.emplace_back(star.distances[j] * std::cos(directions[j]),

@@ -35,8 +35,8 @@ using WeightRule = std::vector<double> (*)(const Star& star);
 
 /// The star is laid into the plane by its geodesic polar map (distances kept, angles scaled to go
 /// round once); the weights are the means of the barycentric coordinates of its centre in all
-/// triangles (p_l, p_j, p_j+1) that contain it, one for each neighbour l. Not negative, and
-/// positive together.
+/// triangles (p_l, p_j, p_j+1) that contain it, one for each neighbour l. Positive. Where one angle
+/// of the map reaches pi (a concave border), no triangle contains it: mean value weights instead.
 /// Paper: [floater-1997], section 6.
 [[nodiscard]] std::vector<double> shape_preserving_weights(const Star& star);
 

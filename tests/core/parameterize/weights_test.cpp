@@ -104,6 +104,11 @@ TEST_SUITE("core/parameterize/weights") {
         }
     }
 
+    TEST_CASE("a star whose centre lies in no triangle has positive shape preserving weights") {
+        Star star{{0, 1, 2}, {1.0, 2.0, 1.5}, {3.5, 1.4, 1.383}};  // one angle above pi
+        for (const double weight : shape_preserving_weights(star)) CHECK(weight > 0);
+    }
+
     TEST_CASE("positive rules never flip a triangle inside a strictly convex border") {
         for (const Region& region : {test::dome(14, 1.4), test::saddle(15), test::cone(9)}) {
             for (const WeightRule rule : {tutte_weights, chord_length_weights,
