@@ -28,6 +28,18 @@ Index tail_begin(const std::vector<std::size_t>& begin) {
     return n - first < fewest ? n : first;
 }
 
+/// Per column before the tail, whether its entries are the next column's and that column itself:
+/// rows then take both at once, at half the traffic.
+std::vector<bool> nested_columns(const std::vector<Index>& parent,
+                                 const std::vector<std::size_t>& begin) {
+    std::vector<bool> nested(begin.size(), false);
+    for (std::size_t i = 0; i + 2 < begin.size(); ++i) {
+        nested[i] =
+            at(parent[i]) == i + 1 && begin[i + 1] - begin[i] == begin[i + 2] - begin[i + 1] + 1;
+    }
+    return nested;
+}
+
 [[noreturn]] void fail() {
     throw Error(ErrorCode::solver_failed, "a linear system is not positive definite");
 }
@@ -46,6 +58,12 @@ SpdCholesky::SpdCholesky(const SparseMatrix& upper) {
     Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n - tail, n - tail);
     std::vector<double> y(at(n), 0.0);  // row k of L D
     std::vector<std::size_t> end(begin_.begin(), begin_.end() - 1);
+    const auto append = [&](std::size_t i, Index k, double y_i) {
+        rows_[end[i]] = k;
+        L_[end[i]++] = y_i / D_[i];
+        return y_i * y_i / D_[i];
+    };
+    const auto nested = nested_columns(parent, begin_);
     RowReach reach(parent);
     for (Index k = 0; k < n; ++k) {
         const auto row = reach.find(upper, k);
@@ -53,14 +71,23 @@ SpdCholesky::SpdCholesky(const SparseMatrix& upper) {
             y[at(entry.index())] = entry.value();
         }
         double pivot = std::exchange(y[at(k)], 0.0);
-        for (const Index column : row) {
-            if (column >= tail) continue;
-            const std::size_t i = at(column);
+        for (std::size_t r = 0; r < row.size(); ++r) {
+            if (row[r] >= tail) continue;
+            const std::size_t i = at(row[r]), j = i + 1;
             const double y_i = std::exchange(y[i], 0.0);
-            for (std::size_t p = begin_[i]; p < end[i]; ++p) y[at(rows_[p])] -= L_[p] * y_i;
-            pivot -= y_i * y_i / D_[i];
-            rows_[end[i]] = k;
-            L_[end[i]++] = y_i / D_[i];
+            const bool both = nested[i] && r + 1 < row.size() && at(row[r + 1]) == j;
+            if (both) {  // column i holds j and then what column j holds
+                std::size_t p = begin_[i];
+                const double y_j = std::exchange(y[j], 0.0) - L_[p++] * y_i;
+                for (std::size_t q = begin_[j]; q < end[j]; ++q, ++p) {
+                    y[at(rows_[q])] -= L_[p] * y_i + L_[q] * y_j;
+                }
+                pivot -= append(j, k, y_j);
+                ++r;
+            } else {
+                for (std::size_t p = begin_[i]; p < end[i]; ++p) y[at(rows_[p])] -= L_[p] * y_i;
+            }
+            pivot -= append(i, k, y_i);
         }
         if (k < tail) {
             if (!(pivot > 0.0) || !std::isfinite(pivot)) fail();
