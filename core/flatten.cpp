@@ -102,7 +102,7 @@ Fan fan_of(const Region& region, const FlattenOptions& options, const Progress& 
                   std::nullopt}}};
     }
     try {
-        return {geodesic_fan(region, progress), {}};
+        return {geodesic_fan(region, options.draw_fan, progress), {}};
     } catch (const Error& error) {
         if (error.code() != ErrorCode::solver_failed) throw;
         return {std::nullopt,

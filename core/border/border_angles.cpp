@@ -90,7 +90,8 @@ SparseMatrix inner_laplacian(const Region& region, const OneRings& rings, const 
             if (b >= 0) values[begin[b + 1] - 1] += weight;
             if (a < 0 || b < 0) continue;
             const auto [row, column] = std::minmax(a, b);
-            values[std::find(rows + begin[column], rows + begin[column + 1], row) - rows] -= weight;
+            values[std::lower_bound(rows + begin[column], rows + begin[column + 1], row) - rows] -=
+                weight;
         }
     }
     return A_ii;
@@ -196,8 +197,9 @@ BorderAngles border_angles(const Region& region, const OneRings& rings,
     close_turning(region, result.turning);
     for (std::size_t i = 0; i < result.corners.size(); ++i) {
         auto& corners = result.corners[i];
-        const double scale =
-            (pi - result.turning[i]) / std::accumulate(corners.begin(), corners.end(), 0.0);
+        constexpr double least = 1e-3;  // where the border turns by more than pi
+        const double scale = std::max(pi - result.turning[i], least) /
+                             std::accumulate(corners.begin(), corners.end(), 0.0);
         for (double& corner : corners) corner *= scale;
     }
     return result;

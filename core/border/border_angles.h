@@ -14,7 +14,7 @@ enum class AngleRule {
 struct BorderAngles {
     std::vector<double> turning;  ///< per border vertex, its exterior angle; their sum is 2 pi
     /// Per border vertex, the angles of its triangles in the flat, in the order of its ring; they
-    /// add up to pi - turning.
+    /// add up to pi - turning, or to 0.001 where that would be less.
     std::vector<std::vector<double>> corners;
 };
 

@@ -38,14 +38,17 @@ struct Window {
 /// later classes never improve what earlier ones have found by much.
 class Buckets {
 public:
-    Buckets(double width, std::size_t most) : width_(width), left_(most) {}
+    Buckets(double width, std::size_t most_buckets, std::size_t most_windows)
+        : width_(width), last_(most_buckets), left_(most_windows) {}
 
     void push(const Window& window, double distance) {
-        if (left_-- == 0) {
+        constexpr std::size_t most_held = 16'000'000;  // 768 MB
+        if (left_-- == 0 || ++held_ > most_held) {
             throw Error(ErrorCode::solver_failed,
                         "the shortest paths on this surface are too many to follow");
         }
-        const auto bucket = std::max(current_, static_cast<std::size_t>(distance / width_));
+        const double wanted = std::min(distance / width_, static_cast<double>(last_));
+        const auto bucket = std::max(current_, static_cast<std::size_t>(wanted));
         if (bucket >= buckets_.size()) buckets_.resize(bucket + 1);
         buckets_[bucket].push_back(window);
     }
@@ -57,6 +60,7 @@ public:
                 window = bucket[next_++];
                 return true;
             }
+            held_ -= bucket.size();
             std::vector<Window>().swap(bucket);
             next_ = 0;
             ++current_;
@@ -67,7 +71,8 @@ public:
 private:
     double width_;
     std::vector<std::vector<Window>> buckets_;
-    std::size_t current_ = 0, next_ = 0;
+    std::size_t current_ = 0, next_ = 0, held_ = 0;
+    std::size_t last_;  ///< bucket, which takes all that is further
     std::size_t left_;  ///< how many more windows may come
 };
 
@@ -78,7 +83,8 @@ public:
         : half_edges_(half_edges),
           total_angles_(total_angles),
           splits_(static_cast<std::size_t>(half_edges.count())),
-          buckets_(0.3 * mean_length(half_edges), most_windows) {
+          buckets_(0.3 * median_length(half_edges),
+                   4 * static_cast<std::size_t>(half_edges.count()), most_windows) {
         result_.distance.assign(total_angles.size(), infinity);
         result_.arrivals.assign(total_angles.size(), {GeodesicDistances::no_root, -1, {0, 0}});
     }
@@ -114,22 +120,29 @@ private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-    static double mean_length(const HalfEdges& half_edges) {
-        double sum = 0.0;
-        for (Index h = 0; h < half_edges.count(); ++h) sum += half_edges.length(h);
-        return sum / half_edges.count();
+    static double median_length(const HalfEdges& half_edges) {
+        std::vector<double> lengths;
+        for (Index h = 0; h < half_edges.count(); ++h) lengths.push_back(half_edges.length(h));
+        const auto middle = lengths.begin() + half_edges.count() / 2;
+        std::nth_element(lengths.begin(), middle, lengths.end());
+        return *middle;
     }
 
     GeodesicDistances run(const Progress& progress) {
-        constexpr int check_every = 4096;
+        constexpr std::size_t check_every = 4096;
         Window window{};
-        for (int count = 1; buckets_.pop(window); ++count) {
+        for (std::size_t count = 1; buckets_.pop(window); ++count) {
             if (count % check_every == 0) progress.check();
             if (window.half_edge != Window::spawn) {
                 propagate(window);
             } else if (window.offset <= result_.distance[at(window.root)]) {
                 open(window.root);
             }
+        }
+        for (Index v = 0; v < half_edges_.vertex_count(); ++v) {
+            if (half_edges_.outgoing(v) < 0 || std::isfinite(result_.distance[at(v)])) continue;
+            throw Error(ErrorCode::solver_failed,
+                        "round-off hides a vertex from every shortest path");
         }
         return std::move(result_);
     }

@@ -47,7 +47,8 @@ public:
     /// triangles take 200, malicious ones any number.
     explicit ExactGeodesics(const Region& region, std::size_t windows_per_half_edge = 500);
 
-    /// Throws: Error{cancelled}; Error{solver_failed} if a run would make too many windows.
+    /// Throws: Error{cancelled}; Error{solver_failed} if a run would make too many windows, or
+    /// if round-off in a row of nearly flat vertices hides one from all of them.
     [[nodiscard]] GeodesicDistances from_vertex(Index vertex, const Progress& progress) const;
     [[nodiscard]] GeodesicDistances from_point(const SurfacePoint& point,
                                                const Progress& progress) const;

@@ -44,6 +44,10 @@ GeodesicCentre geodesic_centre(const Region& region, const ExactGeodesics& geode
     GeodesicCentre best;
     best.radius = std::numeric_limits<double>::infinity();
     for (Index border = outermost_on_border(region);;) {
+        constexpr int most_runs = 64;  // tubes that are round all about have no other centre
+        if (best.runs >= most_runs) {
+            throw Error(ErrorCode::solver_failed, "too many vertices are equally central");
+        }
         const GeodesicDistances inward = geodesics.from_vertex(border, progress);
         ++best.runs;
         for (std::size_t v = 0; v < bound.size(); ++v) {

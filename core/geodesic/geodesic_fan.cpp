@@ -72,7 +72,7 @@ const ConformalPlane::Corner* ConformalPlane::side_to(Index to) const {
     return found != by_side_.end() && found->first == to ? &corners_[found->second] : nullptr;
 }
 
-GeodesicFan geodesic_fan(const Region& region, const Progress& progress) {
+GeodesicFan geodesic_fan(const Region& region, bool keep_paths, const Progress& progress) {
     const ExactGeodesics geodesics(region);
     const GeodesicCentre centre = geodesic_centre(region, geodesics, progress);
     const auto& distance = centre.distances.distance;
@@ -83,12 +83,20 @@ GeodesicFan geodesic_fan(const Region& region, const Progress& progress) {
                     {},
                     centre.runs};
     const ConformalPlane plane(geodesics.half_edges(), centre.vertex);
+    constexpr std::size_t most_points = 4'000'000;
+    std::size_t points = 0;
     for (const Index v : region.border) {
-        fan.spokes.push_back({0.0, distance[static_cast<std::size_t>(v)],
-                              trace_path(geodesics.half_edges(), centre.distances, v)});
-        if (v == centre.vertex) continue;  // only where no vertex is inner
-        fan.spokes.back().angle =
-            angle_of_departure(region, plane, centre.vertex, fan.spokes.back().path);
+        progress.check();
+        GeodesicPath path = trace_path(geodesics.half_edges(), centre.distances, v);
+        // Only where no vertex is inner is the centre itself on the border.
+        const double angle =
+            v == centre.vertex ? 0.0 : angle_of_departure(region, plane, centre.vertex, path);
+        points += keep_paths ? path.points.size() : 0;
+        if (points > most_points) {
+            throw Error(ErrorCode::solver_failed, "its paths have too many points to be drawn");
+        }
+        fan.spokes.push_back({angle, distance[static_cast<std::size_t>(v)],
+                              keep_paths ? std::move(path) : GeodesicPath{}});
     }
     return fan;
 }

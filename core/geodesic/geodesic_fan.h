@@ -8,9 +8,9 @@
 namespace lastflat {
 
 struct FanSpoke {
-    double angle;     ///< radians, counter-clockwise seen from outside, in [0, 2 pi)
-    double distance;  ///< mm
-    GeodesicPath path;
+    double angle;       ///< radians, counter-clockwise seen from outside
+    double distance;    ///< mm
+    GeodesicPath path;  ///< empty unless asked for
 };
 
 /// One spoke for each border vertex, in the order of the border. Angles are those of the conformal
@@ -27,8 +27,10 @@ struct GeodesicFan {
 
 /// Paper:  [kim-kim], sections 3.1 and 3.4; A_n: [hilaga-2001], integrated over the triangles with
 ///         the distance taken as linear on each.
-/// Throws: Error{cancelled}; Error{solver_failed}.
-[[nodiscard]] GeodesicFan geodesic_fan(const Region& region, const Progress& progress);
+/// In:     whether the spokes keep their paths, up to four million points in all.
+/// Throws: Error{cancelled}; Error{solver_failed} as its parts do.
+[[nodiscard]] GeodesicFan geodesic_fan(const Region& region, bool keep_paths,
+                                       const Progress& progress);
 
 /// The triangles around a vertex in its conformal plane: angles scaled so that they go round once
 /// (on the border: as they are).

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/numerics/polygon.h"
+#include "core/numerics/tolerances.h"
 
 namespace lastflat {
 namespace {
@@ -44,9 +45,11 @@ Line crossed(const HalfEdges& half_edges, const Line& line) {
             {along.dot(line.root - origin), cross(along, line.root - origin)}};
 }
 
-/// Appends the straight stretch before `vertex`, from there backwards, without its root.
-void trace_stretch(const HalfEdges& half_edges, const GeodesicDistances& distances,
-                   const Arrival& arrival, Index vertex, std::vector<PathPoint>& points) {
+/// Appends the straight stretch before `vertex`, from there backwards, and returns where it begins:
+/// at its root, or at a vertex that it passes closely. Over that vertex the way is as long, and
+/// which side of it the line passes round-off would decide.
+Index trace_stretch(const HalfEdges& half_edges, const GeodesicDistances& distances,
+                    const Arrival& arrival, Index vertex, std::vector<PathPoint>& points) {
     const auto lose_way = [&] {
         throw Error(
             ErrorCode::solver_failed,
@@ -54,7 +57,7 @@ void trace_stretch(const HalfEdges& half_edges, const GeodesicDistances& distanc
     };
     const bool from_inside = arrival.half_edge >= 0 && arrival.root == GeodesicDistances::no_root &&
                              arrival.half_edge / 3 == distances.source.triangle;
-    if (arrival.half_edge < 0 || from_inside) return;
+    if (arrival.half_edge < 0 || from_inside) return arrival.root;
     // First across the arrival's own edge, seen from the triangle before it.
     const Vec2& apex = half_edges.apex_place(arrival.half_edge);
     const double length = half_edges.length(arrival.half_edge), depth = -arrival.place.y();
@@ -65,16 +68,20 @@ void trace_stretch(const HalfEdges& half_edges, const GeodesicDistances& distanc
               {length - arrival.place.x(), depth}};
     for (Index step = 0; step < half_edges.count(); ++step) {
         if (line.half_edge < 0) lose_way();
-        points.push_back({half_edges.from(line.half_edge), half_edges.to(line.half_edge),
-                          line.x / half_edges.length(line.half_edge)});
+        const Index from = half_edges.from(line.half_edge), to = half_edges.to(line.half_edge);
+        const double share = line.x / half_edges.length(line.half_edge);
+        if (share < tolerance::geodesic_slack) return from;
+        if (share > 1.0 - tolerance::geodesic_slack) return to;
+        points.push_back({from, to, share});
         if (arrival.root == GeodesicDistances::no_root
                 ? line.half_edge / 3 == distances.source.triangle
                 : ends_at_apex(half_edges, line, arrival.root)) {
-            return;
+            return arrival.root;
         }
         line = crossed(half_edges, line);
     }
     lose_way();
+    return arrival.root;
 }
 
 }  // namespace
@@ -86,8 +93,7 @@ GeodesicPath trace_path(const HalfEdges& half_edges, const GeodesicDistances& di
         path.points.push_back({at, at, 0.0});
         if (at == distances.source_vertex) break;
         const Arrival& arrival = distances.arrivals[static_cast<std::size_t>(at)];
-        trace_stretch(half_edges, distances, arrival, at, path.points);
-        at = arrival.root;
+        at = trace_stretch(half_edges, distances, arrival, at, path.points);
     }
     std::reverse(path.points.begin(), path.points.end());
     return path;

@@ -34,7 +34,7 @@ void orient_charts(const std::vector<Region>& regions, const std::vector<Index>&
                    std::vector<Chart>& charts);
 
 /// The fan with its angles counted from the direction in which the oriented chart's +x leaves the
-/// centre on the surface, in (-pi, pi]: of an isometry, the chart's own polar coordinates.
+/// centre on the surface, in [-pi, pi]: of an isometry, the chart's own polar coordinates.
 ///
 /// Paper: [kim-kim], section 3.1 (the polar base).
 [[nodiscard]] GeodesicFan on_base_line(const Region& region, const Chart& chart, GeodesicFan fan);

@@ -1,7 +1,5 @@
 #include "core/measure/check_result.h"
 
-#include <algorithm>
-
 #include "core/numerics/polygon.h"
 
 namespace lastflat {
@@ -14,18 +12,6 @@ std::string first_places(const Region& region, const std::vector<Index>& triangl
         text += (i == 0 ? " at " : ", ") + place(region.position(t[0]));
     }
     return triangles.size() > 3 ? text + " ..." : text;
-}
-
-/// The first of them, by the file's vertex ids.
-std::vector<Triangle> first_triangles(const Region& region, const std::vector<Index>& triangles) {
-    constexpr std::size_t most = 1000;
-    std::vector<Triangle> result;
-    for (std::size_t i = 0; i < std::min(most, triangles.size()); ++i) {
-        Triangle t = region.triangles[static_cast<std::size_t>(triangles[i])];
-        for (Index& v : t) v = region.source_vertices[static_cast<std::size_t>(v)];
-        result.push_back(t);
-    }
-    return result;
 }
 
 void check_crossings(const Region& region, const Points2& uv, MethodName method,
@@ -62,7 +48,7 @@ void check_result(const Region& region, const Points2& uv, MethodName method,
             .at_option({"method"})
             .at_position(
                 region.position(region.triangles[static_cast<std::size_t>(flipped.front())][0]))
-            .at_triangles(first_triangles(region, flipped));
+            .at_triangles(source_triangles(region, flipped));
     }
     if (metrics.border_crossings > 0) check_crossings(region, uv, method, warnings);
     if (method != MethodName::isometric) return;

@@ -36,7 +36,7 @@ inline constexpr double geodesic_round_off = 1e-12;
 
 /// Light through an edge: what misses an end by less than this share of the edge still reaches it,
 /// so that no ray is lost between two windows; the length of its path is off by the square of it.
-inline constexpr double geodesic_slack = 1e-10;
+inline constexpr double geodesic_slack = 1e-8;
 
 /// Two sides of a cut may differ by this much in the flat, in mm (design: pass at 0.001 mm).
 inline constexpr double pair_difference_mm = 1e-3;

@@ -1,5 +1,7 @@
 #include "core/parameterize/chart.h"
 
+#include <algorithm>
+
 #include "core/numerics/polygon.h"
 
 namespace lastflat {
@@ -20,6 +22,17 @@ std::vector<Index> flipped_triangles(const Region& region, const Points2& uv) {
             flipped.push_back(static_cast<Index>(t));
     }
     return flipped;
+}
+
+std::vector<Triangle> source_triangles(const Region& region, const std::vector<Index>& triangles) {
+    constexpr std::size_t most = 1000;
+    std::vector<Triangle> result;
+    for (std::size_t i = 0; i < std::min(most, triangles.size()); ++i) {
+        Triangle t = region.triangles[static_cast<std::size_t>(triangles[i])];
+        for (Index& v : t) v = region.source_vertices[static_cast<std::size_t>(v)];
+        result.push_back(t);
+    }
+    return result;
 }
 
 double flat_area(const Region& region, const Points2& uv) {

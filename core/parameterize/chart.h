@@ -13,6 +13,10 @@ struct Chart {
 /// Triangles that are not counter-clockwise in the plane, ascending.
 [[nodiscard]] std::vector<Index> flipped_triangles(const Region& region, const Points2& uv);
 
+/// The first of these triangles (a thousand at most), by the file's vertex ids: for errors.
+[[nodiscard]] std::vector<Triangle> source_triangles(const Region& region,
+                                                     const std::vector<Index>& triangles);
+
 /// Flat area, mm^2, triangles counted with their sign.
 [[nodiscard]] double flat_area(const Region& region, const Points2& uv);
 

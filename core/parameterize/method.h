@@ -23,7 +23,7 @@ enum class BorderShape { square, circle, hull, floating };
 struct MethodOptions {
     MethodName name = MethodName::isometric;
     BorderShape border = BorderShape::circle;  ///< of the methods from tutte to mean_value
-    AngleRule angles = AngleRule::curvature;   ///< of geodesic_fan
+    AngleRule angles = AngleRule::curvature;   ///< of the border's polygon
 };
 
 /// Whether the method minimises an energy: its start is the geodesic fan.

@@ -42,7 +42,8 @@ Start energy_start(const Region& region, const std::vector<bool>& locked, AngleR
                         why + ") and mean values on a circle (" + std::to_string(flipped.size()) +
                         " triangles collapse, the first at " + place(where) +
                         "); cut the region so that it opens wider")
-            .at_position(where);
+            .at_position(where)
+            .at_triangles(source_triangles(region, flipped));
     }
     start.warnings.push_back({"start_replaced",
                               "region '" + region.name +

@@ -97,8 +97,10 @@ TEST_SUITE("core/export") {
 
     TEST_CASE("the fan is drawn when asked for, one line for each border vertex") {
         CHECK(count(write_svg(result()), "class=\"fan\"") == 0);
-        FlattenResult drawn = result();
-        drawn.draw_fan = true;
+        const SampleLast last = make_sample_last();
+        FlattenOptions options = test::sample_options(last);
+        options.draw_fan = true;
+        const FlattenResult drawn = test::flatten_sample(last, options);
         const std::string svg = write_svg(drawn);
         CHECK(count(svg, "class=\"fan\"") == 2);
         std::size_t begin = svg.find("class=\"fan\""), spokes = 0;

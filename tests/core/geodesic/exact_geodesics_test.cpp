@@ -67,24 +67,27 @@ TEST_SUITE("core/geodesic/exact_geodesics") {
     TEST_CASE("a shortest path bends around a corner of the border") {
         const Region region = flat_l();
         const ExactGeodesics geodesics(region);
-        Index source = -1;
-        for (Index v = 0; v < static_cast<Index>(region.positions.size()); ++v) {
-            if ((region.position(v) - Vec3(19, 3, 0)).norm() < 1e-9) source = v;
-        }
-        REQUIRE(source >= 0);
-        const auto distances = geodesics.from_vertex(source, Progress());
-        const Vec3 corner(10, 10, 0), from = region.position(source);
-        for (Index v = 0; v < static_cast<Index>(region.positions.size()); ++v) {
-            const Vec3 p = region.position(v);
-            const double turn =
-                (corner - from).x() * (p - corner).y() - (corner - from).y() * (p - corner).x();
-            const bool hidden = p.y() > 10 && turn < 0;
-            const double expected =
-                hidden ? (corner - from).norm() + (p - corner).norm() : (p - from).norm();
-            CAPTURE(p.transpose());
-            CHECK(std::abs(at(distances, v) - expected) < 1e-10);
-            CHECK(std::abs(length_of(region, trace_path(geodesics.half_edges(), distances, v)) -
-                           expected) < 1e-10);
+        for (const Vec3& start : {Vec3(19, 3, 0), Vec3(3, 19, 0)}) {
+            Index source = -1;
+            for (Index v = 0; v < static_cast<Index>(region.positions.size()); ++v) {
+                if ((region.position(v) - start).norm() < 1e-9) source = v;
+            }
+            REQUIRE(source >= 0);
+            const auto distances = geodesics.from_vertex(source, Progress());
+            const Vec3 corner(10, 10, 0), from = region.position(source);
+            for (Index v = 0; v < static_cast<Index>(region.positions.size()); ++v) {
+                const Vec3 p = region.position(v);
+                const double turn =
+                    (corner - from).x() * (p - corner).y() - (corner - from).y() * (p - corner).x();
+                const bool hidden =
+                    start.y() < 10 ? p.y() > 10 && turn < 0 : p.x() > 10 && turn > 0;
+                const double expected =
+                    hidden ? (corner - from).norm() + (p - corner).norm() : (p - from).norm();
+                CAPTURE(p.transpose());
+                CHECK(std::abs(at(distances, v) - expected) < 1e-10);
+                CHECK(std::abs(length_of(region, trace_path(geodesics.half_edges(), distances, v)) -
+                               expected) < 1e-10);
+            }
         }
     }
 
@@ -164,6 +167,20 @@ TEST_SUITE("core/geodesic/exact_geodesics") {
                 CHECK(path.points.front().a == 30);
                 CHECK(path.points.back().a == v);
                 CHECK(std::abs(length_of(region, path) - at(distances, v)) < 1e-10);
+            }
+        }
+    }
+
+    TEST_CASE("a row of saddles, each too flat to bend a path, hides no vertex") {
+        const Region region = test::grid(
+            40, 40, [](double u, double v) { return Vec3(40 * u, 40 * v, 2e-6 * 1600 * u * v); });
+        const ExactGeodesics geodesics(region);
+        for (const Index source : {Index{0}, Index{820}}) {
+            try {
+                for (const double d : geodesics.from_vertex(source, Progress()).distance)
+                    CHECK(std::isfinite(d));
+            } catch (const Error& error) {
+                CHECK(error.code() == ErrorCode::solver_failed);
             }
         }
     }

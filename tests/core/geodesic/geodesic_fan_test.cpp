@@ -32,7 +32,7 @@ TEST_SUITE("core/geodesic/geodesic_fan") {
     TEST_CASE("on a plane the fan is the border in polar coordinates") {
         const Region region =
             test::grid(12, 8, [](double s, double t) { return Vec3(90 * s, 60 * t, 0); });
-        const GeodesicFan fan = geodesic_fan(region, Progress());
+        const GeodesicFan fan = geodesic_fan(region, false, Progress());
         const Vec3 centre = region.position(fan.centre);
         CHECK((centre - Vec3(45, 30, 0)).norm() < 1e-12);
         REQUIRE(fan.spokes.size() == region.border.size());
@@ -56,7 +56,7 @@ TEST_SUITE("core/geodesic/geodesic_fan") {
 
     TEST_CASE("spokes follow one another around the border once") {
         for (const Region& region : {test::dome(12, 1.2), test::saddle(13)}) {
-            const GeodesicFan fan = geodesic_fan(region, Progress());
+            const GeodesicFan fan = geodesic_fan(region, false, Progress());
             double turned = 0;
             for (std::size_t i = 0; i < fan.spokes.size(); ++i) {
                 const double step = std::remainder(
@@ -74,9 +74,34 @@ TEST_SUITE("core/geodesic/geodesic_fan") {
         region.positions = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}};
         region.triangles = {{0, 1, 2}, {0, 2, 3}};
         region.border = checked_border(region);
-        const GeodesicFan fan = geodesic_fan(region, Progress());
+        const GeodesicFan fan = geodesic_fan(region, false, Progress());
         CHECK(fan.radius == doctest::Approx(5.0));
         CHECK(fan.spokes.size() == 4);
+    }
+
+    TEST_CASE("a tube of perfect symmetry, where a ring of vertices ties, is given up in time") {
+        constexpr int around = 90;
+        Region region;
+        region.positions.emplace_back(0, 0, 60);
+        for (int k = 0; k <= 2; ++k) {
+            for (int i = 0; i < around; ++i) {
+                const double a = 2 * std::numbers::pi * i / around;
+                region.positions.emplace_back(20 * std::cos(a), 20 * std::sin(a), 60 - 30.0 * k);
+            }
+        }
+        const auto id = [&](int k, int i) {
+            return static_cast<Index>(1 + k * around + i % around);
+        };
+        for (int i = 0; i < around; ++i) {
+            region.triangles.push_back({0, id(0, i), id(0, i + 1)});
+            for (int k = 0; k < 2; ++k) {
+                region.triangles.push_back({id(k, i), id(k + 1, i), id(k + 1, i + 1)});
+                region.triangles.push_back({id(k, i), id(k + 1, i + 1), id(k, i + 1)});
+            }
+        }
+        region.border = checked_border(region);
+        const ExactGeodesics geodesics(region);
+        CHECK_THROWS_AS((void)geodesic_centre(region, geodesics, Progress()), Error);
     }
 }
 
