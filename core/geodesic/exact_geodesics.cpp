@@ -122,6 +122,7 @@ private:
 
     static double median_length(const HalfEdges& half_edges) {
         std::vector<double> lengths;
+        lengths.reserve(static_cast<std::size_t>(half_edges.count()));
         for (Index h = 0; h < half_edges.count(); ++h) lengths.push_back(half_edges.length(h));
         const auto middle = lengths.begin() + half_edges.count() / 2;
         std::nth_element(lengths.begin(), middle, lengths.end());

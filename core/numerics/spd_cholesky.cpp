@@ -56,39 +56,16 @@ SpdCholesky::SpdCholesky(const SparseMatrix& upper) {
     L_.resize(begin_.back());
     D_.resize(at(tail));
     Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n - tail, n - tail);
-    std::vector<double> y(at(n), 0.0);  // row k of L D
-    std::vector<std::size_t> end(begin_.begin(), begin_.end() - 1);
-    const auto append = [&](std::size_t i, Index k, double y_i) {
-        rows_[end[i]] = k;
-        L_[end[i]++] = y_i / D_[i];
-        return y_i * y_i / D_[i];
-    };
-    const auto nested = nested_columns(parent, begin_);
+    nested_ = nested_columns(parent, begin_);
+    end_.assign(begin_.begin(), begin_.end() - 1);
+    std::vector<double> y(at(n), 0.0);
     RowReach reach(parent);
     for (Index k = 0; k < n; ++k) {
         const auto row = reach.find(upper, k);
         for (SparseMatrix::InnerIterator entry(upper, k); entry; ++entry) {
             y[at(entry.index())] = entry.value();
         }
-        double pivot = std::exchange(y[at(k)], 0.0);
-        for (std::size_t r = 0; r < row.size(); ++r) {
-            if (row[r] >= tail) continue;
-            const std::size_t i = at(row[r]), j = i + 1;
-            const double y_i = std::exchange(y[i], 0.0);
-            const bool both = nested[i] && r + 1 < row.size() && at(row[r + 1]) == j;
-            if (both) {  // column i holds j and then what column j holds
-                std::size_t p = begin_[i];
-                const double y_j = std::exchange(y[j], 0.0) - L_[p++] * y_i;
-                for (std::size_t q = begin_[j]; q < end[j]; ++q, ++p) {
-                    y[at(rows_[q])] -= L_[p] * y_i + L_[q] * y_j;
-                }
-                pivot -= append(j, k, y_j);
-                ++r;
-            } else {
-                for (std::size_t p = begin_[i]; p < end[i]; ++p) y[at(rows_[p])] -= L_[p] * y_i;
-            }
-            pivot -= append(i, k, y_i);
-        }
+        const double pivot = std::exchange(y[at(k)], 0.0) - eliminate(row, k, y);
         if (k < tail) {
             if (!(pivot > 0.0) || !std::isfinite(pivot)) fail();
             D_[at(k)] = pivot;
@@ -99,6 +76,35 @@ SpdCholesky::SpdCholesky(const SparseMatrix& upper) {
     }
     tail_.compute(S);
     if (n > tail && tail_.info() != Eigen::Success) fail();
+}
+
+double SpdCholesky::eliminate(std::span<const Index> columns, Index k, std::vector<double>& y) {
+    double taken = 0.0;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        const std::size_t i = at(columns[c]), j = i + 1;
+        if (i >= D_.size()) continue;
+        const double y_i = std::exchange(y[i], 0.0);
+        if (nested_[i] && c + 1 < columns.size() && at(columns[c + 1]) == j) {
+            // Column i holds j and then what column j holds.
+            std::size_t p = begin_[i];
+            const double y_j = std::exchange(y[j], 0.0) - L_[p++] * y_i;
+            for (std::size_t q = begin_[j]; q < end_[j]; ++q, ++p) {
+                y[at(rows_[q])] -= L_[p] * y_i + L_[q] * y_j;
+            }
+            taken += append(j, k, y_j);
+            ++c;
+        } else {
+            for (std::size_t p = begin_[i]; p < end_[i]; ++p) y[at(rows_[p])] -= L_[p] * y_i;
+        }
+        taken += append(i, k, y_i);
+    }
+    return taken;
+}
+
+double SpdCholesky::append(std::size_t column, Index k, double value) {
+    rows_[end_[column]] = k;
+    L_[end_[column]++] = value / D_[column];
+    return value * value / D_[column];
 }
 
 Eigen::VectorXd SpdCholesky::solve(const Eigen::VectorXd& right_hand_side) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <span>
 #include <vector>
 
 #include "core/numerics/types.h"
@@ -20,6 +21,13 @@ public:
     [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const;
 
 private:
+    /// Eliminates the row `y` of L D by the columns that it reaches, and appends it to them;
+    /// returns what the elimination takes from its pivot.
+    double eliminate(std::span<const Index> columns, Index k, std::vector<double>& y);
+    double append(std::size_t column, Index k, double value);
+
+    std::vector<bool> nested_;        ///< per column of L: see `nested_columns`
+    std::vector<std::size_t> end_;    ///< per column, where its next entry goes
     std::vector<std::size_t> begin_;  ///< per column of L before the tail, its entries
     std::vector<Index> rows_;
     std::vector<double> L_, D_;
