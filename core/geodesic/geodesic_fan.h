@@ -1,8 +1,6 @@
 // The geodesic fan of a region: its centre, and the border in polar coordinates around it.
 #pragma once
 
-#include <optional>
-
 #include "core/geodesic/trace_path.h"
 
 namespace lastflat {
