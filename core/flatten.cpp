@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "core/constrain/constrained_newton.h"
+#include "core/constrain/resolve_conflicts.h"
 #include "core/constrain/scale_to_locks.h"
 #include "core/measure/check_result.h"
 #include "core/parallel.h"
@@ -27,13 +27,18 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-void check_locks(const std::vector<Lock>& locks, const Curves& curves) {
-    for (std::size_t i = 0; i < locks.size(); ++i) {
-        const bool known = std::any_of(curves.begin(), curves.end(),
-                                       [&](const Curve& c) { return c.name == locks[i].curve; });
-        if (!known) {
-            throw Error(ErrorCode::curve_invalid, "lock on '" + locks[i].curve + "' names no curve")
-                .at_option({"locks", std::to_string(i), "curve"});
+void check_curve_names(const std::vector<Constraint>& constraints, const Curves& curves) {
+    for (const Constraint& constraint : constraints) {
+        for (const std::string& name : {constraint.curve, constraint.with_curve}) {
+            const bool known =
+                name.empty() || std::any_of(curves.begin(), curves.end(),
+                                            [&](const Curve& c) { return c.name == name; });
+            if (known) continue;
+            auto option = constraint.option;
+            option.emplace_back(name == constraint.curve ? "curve" : "with_curve");
+            throw Error(ErrorCode::curve_invalid,
+                        constraint.title() + ": there is no curve '" + name + "'")
+                .at_option(option);
         }
     }
 }
@@ -59,30 +64,63 @@ FlatRegion certified(const Region& region, const Chart& chart, const FlattenOpti
                      std::vector<Warning>& warnings) {
     FlatRegion flat{region, chart, trace_outline(region, chart),
                     measure_distortion(region, chart.uv),
-                    measure_curves(region, chart.uv, options.locks)};
+                    measure_curves(region, chart.uv, options.constraints)};
     check_result(region, chart.uv, options.method.name, flat.metrics, flat.curves, warnings);
     return flat;
 }
 
-/// The start as it becomes the answer: at the least of its energy, or scaled as a whole.
-Minimum refined(const Region& region, Start start, const FlattenOptions& options,
-                const Progress& progress) {
-    const auto minimised = [&](const IsotropicEnergy& energy, const std::vector<Lock>& locks) {
-        return minimise_distortion(region, start.chart, length_constraints(region, locks), energy,
-                                   progress);
-    };
-    Minimum result;
-    switch (options.method.name) {
-        case MethodName::isometric: result = minimised(SymmetricDirichlet(), options.locks); break;
-        case MethodName::green_lagrange: result = minimised(GreenLagrange(), {}); break;
-        case MethodName::mips:
-            result = minimised(Mips(), {});
-            result.chart = scaled_to_locks(region, std::move(result.chart), options.locks);
-            break;
-        default: result.chart = scaled_to_locks(region, std::move(start.chart), options.locks);
+/// The charts of regions that depend on each other, and how they were found.
+struct Refined {
+    std::vector<Chart> charts;
+    int iterations = 0;
+    std::vector<Warning> warnings;
+};
+
+/// The starts as they become the answer: at the least of their energy, or scaled as a whole.
+Refined refined(const Domain& domain, std::vector<Start> starts, const FlattenOptions& options,
+                std::size_t threads, const Progress& progress) {
+    Refined result;
+    for (Start& start : starts) {
+        result.charts.push_back(std::move(start.chart));
+        std::move(start.warnings.begin(), start.warnings.end(),
+                  std::back_inserter(result.warnings));
     }
-    result.warnings.insert(result.warnings.begin(), start.warnings.begin(), start.warnings.end());
+    const auto minimise = [&](const IsotropicEnergy& energy,
+                              const std::vector<Constraint>& constraints) {
+        ConstrainedChart best = least_distortion(domain, result.charts, constraints, energy,
+                                                 options.on_conflict, threads, progress);
+        result.charts = std::move(best.minimum.charts);
+        result.iterations = best.minimum.iterations;
+        std::move(best.warnings.begin(), best.warnings.end(), std::back_inserter(result.warnings));
+    };
+    const auto scale_to_locks = [&] {
+        for (std::size_t r = 0; r < domain.regions.size(); ++r) {
+            result.charts[r] = scaled_to_locks(*domain.regions[r], std::move(result.charts[r]),
+                                               options.constraints);
+        }
+    };
+    switch (options.method.name) {
+        case MethodName::isometric: minimise(SymmetricDirichlet(), options.constraints); break;
+        case MethodName::green_lagrange: minimise(GreenLagrange(), {}); break;
+        case MethodName::mips:
+            minimise(Mips(), {});
+            scale_to_locks();
+            break;
+        default: scale_to_locks();
+    }
     return result;
+}
+
+Refined refine(const std::vector<std::size_t>& group, const std::vector<Region>& regions,
+               std::vector<Start>& starts, const FlattenOptions& options,
+               const Progress& progress) {
+    std::vector<const Region*> parts;
+    std::vector<Start> own;
+    for (const std::size_t r : group) {
+        parts.push_back(&regions[r]);
+        own.push_back(std::move(starts[r]));
+    }
+    return refined(Domain(parts), std::move(own), options, options.threads, progress);
 }
 
 struct Fan {
@@ -111,24 +149,36 @@ Fan fan_of(const Region& region, const FlattenOptions& options, const Progress& 
     }
 }
 
+/// Regions with the same first place depend on each other; they are solved together.
+struct Group {
+    std::vector<std::size_t> regions;
+    Refined refined;
+};
+
 /// The charts laid on the sheet, measured and found sound.
-void finish(const std::vector<Region>& regions, std::vector<Minimum> minima, std::vector<Fan> fans,
+void finish(const std::vector<Region>& regions, std::vector<Group> groups, std::vector<Fan> fans,
             const FlattenOptions& options, FlattenResult& result) {
-    std::vector<Chart> charts;
+    std::vector<Chart> charts(regions.size());
+    std::vector<int> iterations(regions.size());
     std::vector<Index> centres;
-    for (std::size_t r = 0; r < regions.size(); ++r) {
-        charts.push_back(std::move(minima[r].chart));
-        centres.push_back(fans[r].fan ? fans[r].fan->centre : -1);
-        for (auto* warnings : {&minima[r].warnings, &fans[r].warnings}) {
-            std::move(warnings->begin(), warnings->end(), std::back_inserter(result.warnings));
+    for (Group& group : groups) {
+        for (std::size_t i = 0; i < group.regions.size(); ++i) {
+            charts[group.regions[i]] = std::move(group.refined.charts[i]);
+            iterations[group.regions[i]] = group.refined.iterations;
         }
+        std::move(group.refined.warnings.begin(), group.refined.warnings.end(),
+                  std::back_inserter(result.warnings));
+    }
+    for (Fan& fan : fans) {
+        centres.push_back(fan.fan ? fan.fan->centre : -1);
+        std::move(fan.warnings.begin(), fan.warnings.end(), std::back_inserter(result.warnings));
     }
     orient_charts(regions, centres, charts);
     result.sheet = arrange_pair(regions, charts, options.layout_gap_mm);
     result.pairs = measure_pairs(regions, charts);
     for (std::size_t r = 0; r < regions.size(); ++r) {
         FlatRegion flat = certified(regions[r], charts[r], options, result.warnings);
-        flat.iterations = minima[r].iterations;
+        flat.iterations = iterations[r];
         if (fans[r].fan) flat.fan = on_base_line(regions[r], charts[r], std::move(*fans[r].fan));
         result.regions.push_back(std::move(flat));
     }
@@ -152,7 +202,7 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& options, Pro
 
     progress.reach(Stage::cut, 0.2);
     const Curves curves = locate_curves(surface, options.curves);
-    check_locks(options.locks, curves);
+    check_curve_names(options.constraints, curves);
     const auto regions = cut_into_regions(surface, curves, options.cut);
     warn_of_absent_curves(curves, regions, result.warnings);
     result.timing.cut_ms = watch.lap();
@@ -161,26 +211,27 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& options, Pro
     std::vector<Start> starts(regions.size());
     for_each_index(regions.size(), options.threads, [&](std::size_t r) {
         progress.check();
-        starts[r] =
-            start_chart(regions[r], locked_border_edges(regions[r], options.locks), options.method);
+        starts[r] = start_chart(regions[r], locked_border_edges(regions[r], options.constraints),
+                                options.method);
     });
     result.timing.parameterize_ms = watch.lap();
 
     progress.reach(Stage::constrain, 0.5);
-    std::vector<Minimum> minima(regions.size());
+    std::vector<Group> groups;
+    for (auto& group : coupled_regions(regions, options.constraints))
+        groups.push_back({std::move(group), {}});
     std::vector<Fan> fans(regions.size());
-    for_each_index(2 * regions.size(), options.threads, [&](std::size_t task) {
-        const std::size_t r = task % regions.size();
-        if (task < regions.size()) {
-            minima[r] = refined(regions[r], std::move(starts[r]), options, progress);
+    for_each_index(groups.size() + regions.size(), options.threads, [&](std::size_t task) {
+        if (task < groups.size()) {
+            groups[task].refined = refine(groups[task].regions, regions, starts, options, progress);
         } else {
-            fans[r] = fan_of(regions[r], options, progress);
+            fans[task - groups.size()] = fan_of(regions[task - groups.size()], options, progress);
         }
     });
     result.timing.constrain_ms = watch.lap();
 
     progress.reach(Stage::measure, 0.9);
-    finish(regions, std::move(minima), std::move(fans), options, result);
+    finish(regions, std::move(groups), std::move(fans), options, result);
     result.timing.total_ms = total.lap();
     progress.reach(Stage::done, 1.0);
     return result;

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "core/constrain/length_constraints.h"
+#include "core/constrain/resolve_conflicts.h"
 #include "core/cut/cut.h"
 #include "core/geodesic/geodesic_fan.h"
 #include "core/layout/sheet.h"
@@ -22,7 +22,8 @@ struct FlattenOptions {
     WeldOptions weld;
     std::vector<CurveSource> curves;
     CutOptions cut;
-    std::vector<Lock> locks;
+    std::vector<Constraint> constraints;
+    OnConflict on_conflict = OnConflict::fail;
     MethodOptions method;
     bool draw_fan = false;  ///< the geodesic fan in the drawing
     /// Up to how many triangles of a region its fan is computed, and if it is to be drawn.

@@ -171,9 +171,12 @@ FlattenOptions to_options(const api::FlattenRequest& request) {
         }
         options.cut.regions.push_back(choice);
     }
-    for (const auto& lock : request.locks) {
-        options.locks.push_back(
-            {lock.curve, lock.keep == api::KeepLength::edges ? Keep::edges : Keep::total});
+    for (std::size_t i = 0; i < request.locks.size(); ++i) {
+        const auto& wire = request.locks[i];
+        Constraint constraint =
+            lock(wire.curve, wire.keep == api::KeepLength::edges ? Keep::edges : Keep::total);
+        constraint.option = {"locks", std::to_string(i)};
+        options.constraints.push_back(std::move(constraint));
     }
     options.method = method_of(request.method);
     options.draw_fan = request.draw_fan;

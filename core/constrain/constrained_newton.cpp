@@ -1,11 +1,11 @@
 // Based on: Smith, Schaefer, "Bijective Parameterization with Free Boundaries", SIGGRAPH 2015;
-// Nocedal, Wright, "Numerical Optimization", 2006, chapters 15 and 18. Unlike both, Hessians are
-// exact near the minimum whenever the system's inertia allows it.
+// Nocedal, Wright, "Numerical Optimization", 2006, chapters 15 and 18; Hintermueller, Ito, Kunisch,
+// "The Primal-Dual Active Set Strategy as a Semismooth Newton Method", SIAM J. Optimization 2002.
+// Unlike the first, Hessians are exact near the minimum whenever the system's inertia allows it.
 #include "core/constrain/constrained_newton.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/constrain/optimality_system.h"
 #include "core/numerics/tolerances.h"
@@ -13,100 +13,193 @@
 namespace lastflat {
 namespace {
 
-/// Beyond this mean density the start is so far off that lengths are left alone at first.
+/// Beyond this mean density the start is so far off that constraints are left alone at first.
 constexpr double near_isometry = 1.05;
 /// The approach ends when a step promises less than this share of the energy.
 constexpr double approach_decrease = 1e-3;
-/// A search that stalls has still converged if it stalls below this: round-off hides the rest.
-constexpr double stalled_decrease = 1e-9;
 constexpr int max_iterations = 200;
+/// An inequality that was let go so often stays: it would come and go forever.
+constexpr int most_releases = 8;
+
+using Eigen::VectorXd;
 
 class ConstrainedNewton {
 public:
-    ConstrainedNewton(const Region& region, const std::vector<LengthConstraint>& constraints,
-                      Distortion& distortion, const Progress& progress)
-        : constraints_(constraints),
+    ConstrainedNewton(const Problem& problem, Distortion& distortion, const Progress& progress)
+        : rows_(problem.rows),
+          compliance_(problem.compliance.empty() ? std::vector<double>(rows_.size(), 0.0)
+                                                 : problem.compliance),
           distortion_(distortion),
           progress_(progress),
-          system_(region, constraints, distortion),
-          multipliers_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(constraints.size()))) {}
+          system_(problem.domain, rows_, compliance_, distortion, problem.threads, progress),
+          multipliers_(VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()))),
+          held_(rows_.size(), Held::not_held),
+          releases_(rows_.size(), 0) {
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            if (rows_[k].is_equation()) held_[k] = Held::by_most;
+        }
+    }
 
-    /// Steps until no step promises more than `decrease` of the energy and all lengths are kept,
-    /// or the mean density is below `enough`. False if progress ends before.
-    bool run(Eigen::VectorXd& x, double decrease, double enough) {
-        energy_ = distortion_.value(x);
-        residual_ = system_.residual(x);
+    /// Steps until the projected gradient and the errors are as small as asked, or the mean density
+    /// is below `enough`. False if progress ends before.
+    bool run(VectorXd& x, double decrease, double enough) {
+        move_to(x);
+        near_ = energy_ < near_isometry * distortion_.total_area();
         while (iterations_ < max_iterations) {
             if (energy_ < enough * distortion_.total_area()) return true;
+            const bool settled = !update_held();
+            if (settled && projected_gradient_ <= tolerance::projected_gradient &&
+                worst_error_ <= tolerance::solver_length)
+                return true;
             progress_.check();
             const Step step = take_step(x);
-            const bool at_rest = step.promised <= decrease * energy_;
-            if (at_rest && worst_length_error() <= tolerance::solver_length) return true;
-            if (step.length == 0.0) return step.promised <= stalled_decrease * energy_;
+            if (step.promised <= decrease * energy_) return true;
+            if (step.length == 0.0) return false;
         }
         return false;
     }
 
-    [[nodiscard]] double worst_length_error() const {
-        double worst = 0.0;
-        for (Eigen::Index k = 0; k < residual_.size(); ++k) {
-            worst = std::max(
-                worst, std::abs(residual_[k]) / constraints_[static_cast<std::size_t>(k)].length);
+    void report(Minimum& minimum) const {
+        minimum.iterations += iterations_;
+        minimum.factorizations += factorizations_;
+        minimum.energy = energy_ / distortion_.total_area();
+        minimum.projected_gradient = projected_gradient_;
+        minimum.worst_error = worst_error_;
+        minimum.errors = VectorXd(static_cast<Eigen::Index>(rows_.size()));
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            const auto i = static_cast<Eigen::Index>(k);
+            minimum.errors[i] = rows_[k].violation(values_[i]);
         }
-        return worst;
     }
-    [[nodiscard]] const Eigen::VectorXd& residual() const { return residual_; }
-    [[nodiscard]] double energy() const { return energy_; }
-    [[nodiscard]] int iterations() const { return iterations_; }
-    /// The decrease of the merit function that the last step's model promised.
-    [[nodiscard]] double promised() const { return promised_; }
 
 private:
-    [[nodiscard]] double merit(const Eigen::VectorXd& x) const {
-        const double energy = distortion_.value(x);
-        return std::isfinite(energy) ? energy + penalty_ * system_.residual(x).lpNorm<1>() : energy;
-    }
-
     struct Step {
         double promised;  ///< decrease of the merit function, by the model
         double length;    ///< share of the step taken; 0: the merit function does not fall
     };
 
-    /// One step of sequential quadratic programming.
-    Step take_step(Eigen::VectorXd& x) {
-        ++iterations_;
-        system_.factor(x, multipliers_, near_ ? HessianKind::exact : HessianKind::projected);
-        const Eigen::VectorXd solution = system_.solve(-system_.gradient(), -residual_);
-        const Eigen::VectorXd d = solution.head(x.size());
-        const Eigen::VectorXd wanted = solution.tail(residual_.size());
-        if (wanted.size() > 0) {
-            penalty_ = std::max(penalty_, 1.5 * wanted.lpNorm<Eigen::Infinity>());
+    [[nodiscard]] bool soft(std::size_t k) const { return compliance_[k] > 0.0; }
+
+    [[nodiscard]] VectorXd row_values(const VectorXd& x) const {
+        VectorXd values(static_cast<Eigen::Index>(rows_.size()));
+        for (std::size_t k = 0; k < rows_.size(); ++k)
+            values[static_cast<Eigen::Index>(k)] = rows_[k].value(x);
+        return values;
+    }
+
+    /// Per row, how far it is from the bound that holds it.
+    [[nodiscard]] VectorXd residual(const VectorXd& values) const {
+        VectorXd result = VectorXd::Zero(values.size());
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            const auto i = static_cast<Eigen::Index>(k);
+            if (held_[k] == Held::by_most) result[i] = values[i] - rows_[k].most;
+            if (held_[k] == Held::by_least) result[i] = values[i] - rows_[k].least;
         }
-        const double slope = system_.gradient().dot(d) - penalty_ * residual_.lpNorm<1>();
+        return result;
+    }
+
+    /// What the constraints add to the merit function.
+    [[nodiscard]] double cost_of(const VectorXd& values) const {
+        double cost = 0.0;
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            const double error = rows_[k].violation(values[static_cast<Eigen::Index>(k)]);
+            cost += soft(k) ? 0.5 * error * error / compliance_[k] : penalty_ * std::abs(error);
+        }
+        return cost;
+    }
+
+    [[nodiscard]] double merit(const VectorXd& x) const {
+        const double energy = distortion_.value(x);
+        return std::isfinite(energy) ? energy + cost_of(row_values(x)) : energy;
+    }
+
+    /// Evaluates everything at x, which then is where the search stands.
+    void move_to(const VectorXd& x) {
+        energy_ = distortion_.value(x);
+        gradient_ = distortion_.gradient(x);
+        values_ = row_values(x);
+        const VectorXd errors = residual(values_);
+        worst_error_ = 0.0;
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            const auto i = static_cast<Eigen::Index>(k);
+            if (soft(k)) {
+                multipliers_[i] = errors[i] / compliance_[k];
+            } else {
+                worst_error_ = std::max(
+                    worst_error_, std::abs(rows_[k].violation(values_[i])) / rows_[k].reference);
+            }
+        }
+        VectorXd forces = gradient_;
+        system_.add_forces(x, multipliers_, forces);
+        projected_gradient_ = forces.norm() / std::sqrt(distortion_.total_area());
+    }
+
+    /// Holds what is violated, lets go what pulls the wrong way. Whether anything changed.
+    bool update_held() {
+        bool changed = false;
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            if (rows_[k].is_equation()) continue;
+            const auto i = static_cast<Eigen::Index>(k);
+            Held now = held_[k];
+            const bool pulls_in = static_cast<double>(now) * multipliers_[i] < 0.0;
+            if (now != Held::not_held && pulls_in && releases_[k] < most_releases) {
+                now = Held::not_held;
+                multipliers_[i] = 0.0;
+                ++releases_[k];
+            }
+            if (values_[i] > rows_[k].most) now = Held::by_most;
+            if (values_[i] < rows_[k].least) now = Held::by_least;
+            changed = changed || now != held_[k];
+            held_[k] = now;
+        }
+        return changed;
+    }
+
+    /// One step of sequential quadratic programming.
+    Step take_step(VectorXd& x) {
+        ++iterations_;
+        ++factorizations_;
+        system_.factor(x, multipliers_, held_, near_ ? HessianKind::exact : HessianKind::projected);
+        const VectorXd errors = residual(values_);
+        const VectorXd solution = system_.solve(-gradient_, -errors);
+        const VectorXd d = solution.head(x.size());
+        const VectorXd wanted = solution.tail(errors.size());
+        double slope = gradient_.dot(d);
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            const auto i = static_cast<Eigen::Index>(k);
+            if (soft(k)) {
+                slope += multipliers_[i] * (compliance_[k] * wanted[i] - errors[i]);
+            } else {
+                penalty_ = std::max(penalty_, 1.5 * std::abs(wanted[i]));
+            }
+        }
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            if (!soft(k))
+                slope -=
+                    penalty_ * std::abs(rows_[k].violation(values_[static_cast<Eigen::Index>(k)]));
+        }
         const double t = search(x, d, slope);
         multipliers_ += t * (wanted - multipliers_);
-        energy_ = distortion_.value(x);
-        residual_ = system_.residual(x);
+        move_to(x);
         near_ = t == 1.0;
-        promised_ = -0.5 * slope;
-        return {promised_, t};
+        return {-0.5 * slope, t};
     }
 
     /// Moves x along d as far as the merit function falls; returns the step length.
-    double search(Eigen::VectorXd& x, const Eigen::VectorXd& d, double slope) const {
+    double search(VectorXd& x, const VectorXd& d, double slope) const {
         constexpr double armijo = 1e-4, round_off = 1e-13, smallest = 1e-10;
         const double before = merit(x);
         const double allowance = round_off * std::abs(before);
-        const auto falls = [&](const Eigen::VectorXd& to, double t) {
+        const auto falls = [&](const VectorXd& to, double t) {
             return merit(to) <= before + armijo * t * slope + allowance;
         };
         double t = std::min(1.0, 0.95 * distortion_.collapse_step(x, d));
         for (bool first = true; t > smallest; t *= 0.5, first = false) {
-            Eigen::VectorXd to = x + t * d;
+            VectorXd to = x + t * d;
             bool accepted = falls(to, t);
-            if (!accepted && first && t == 1.0 && residual_.size() > 0) {
+            if (!accepted && first && t == 1.0 && !rows_.empty()) {
                 // Edges that turn by a finite angle come out too long: correct to second order.
-                to += system_.solve(Eigen::VectorXd::Zero(x.size()), -system_.residual(to))
+                to += system_.solve(VectorXd::Zero(x.size()), -residual(row_values(to)))
                           .head(x.size());
                 accepted = falls(to, t);
             }
@@ -118,95 +211,53 @@ private:
         return 0.0;
     }
 
-    const std::vector<LengthConstraint>& constraints_;
+    const std::vector<ConstraintRow>& rows_;
+    const std::vector<double> compliance_;
     Distortion& distortion_;
     const Progress& progress_;
     OptimalitySystem system_;
-    Eigen::VectorXd multipliers_, residual_;
-    double energy_ = 0.0, penalty_ = 0.0, promised_ = 0.0;
-    int iterations_ = 0;
+    VectorXd multipliers_, gradient_, values_;
+    std::vector<Held> held_;
+    std::vector<int> releases_;
+    double energy_ = 0.0, penalty_ = 0.0, projected_gradient_ = 0.0, worst_error_ = 0.0;
+    int iterations_ = 0, factorizations_ = 0;
     bool near_ = false;
 };
 
-Warning not_converged(const Region& region, const ConstrainedNewton& newton) {
-    char decrease[48];
-    std::snprintf(decrease, sizeof decrease, "%.2g", newton.promised() / newton.energy());
-    return {"not_converged",
-            "region '" + region.name + "' is sound but not at its minimum after " +
-                std::to_string(newton.iterations()) +
-                " Newton steps: its distortion could still fall by a share of " + decrease,
-            std::nullopt};
-}
-
-[[noreturn]] void fail_infeasible(const Region& region,
-                                  const std::vector<LengthConstraint>& constraints,
-                                  const Eigen::VectorXd& residual) {
-    Eigen::Index worst = 0;
-    residual.cwiseAbs().maxCoeff(&worst);
-    const auto& constraint = constraints[static_cast<std::size_t>(worst)];
-    const Vec3& position = region.position(constraint.edges.front().first);
-    char amount[48];
-    std::snprintf(amount, sizeof amount, "%.3g mm", residual[worst]);
-    throw Error(ErrorCode::constraints_infeasible,
-                "region '" + region.name +
-                    "': the locked lengths cannot all be kept; furthest off "
-                    "is curve '" +
-                    constraint.curve + "' at " + place(position) + ", by " + amount +
-                    "; lock it by \"keep\": \"total\", or not at all")
-        .at_option({"locks"})
-        .at_position(position);
-}
-
-Eigen::VectorXd coordinates(const Points2& points) {
-    Eigen::VectorXd x(2 * static_cast<Eigen::Index>(points.size()));
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        x.segment<2>(2 * static_cast<Eigen::Index>(i)) = points[i];
+/// The starts, each scaled to its surface's area.
+VectorXd scaled_start(const Domain& domain, const std::vector<Chart>& starts) {
+    VectorXd x = domain.coordinates(starts);
+    for (std::size_t r = 0; r < domain.regions.size(); ++r) {
+        const Region& region = *domain.regions[r];
+        const auto flipped = flipped_triangles(region, starts[r].uv);
+        if (!flipped.empty()) {
+            throw Error(ErrorCode::method_failed,
+                        std::to_string(flipped.size()) + " triangles of the start are flipped");
+        }
+        const double scale = std::sqrt(surface_area(region) / flat_area(region, starts[r].uv));
+        x.segment(2 * domain.first[r], 2 * (domain.first[r + 1] - domain.first[r])) *= scale;
     }
     return x;
 }
 
-Points2 points_of(const Eigen::VectorXd& x) {
-    Points2 points(static_cast<std::size_t>(x.size() / 2));
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        points[i] = x.segment<2>(2 * static_cast<Eigen::Index>(i));
-    }
-    return points;
-}
-
-/// The uniform scale at which the chart has the surface's area.
-double area_scale(const Region& region, const Points2& uv) {
-    return std::sqrt(surface_area(region) / flat_area(region, uv));
-}
-
 }  // namespace
 
-Minimum minimise_distortion(const Region& region, const Chart& start,
-                            const std::vector<LengthConstraint>& constraints,
-                            const IsotropicEnergy& energy, const Progress& progress) {
-    const auto flipped = flipped_triangles(region, start.uv);
-    if (!flipped.empty()) {
-        throw Error(ErrorCode::method_failed,
-                    std::to_string(flipped.size()) + " triangles of the start are flipped");
-    }
-    Distortion distortion(region, energy);
-    Eigen::VectorXd x = area_scale(region, start.uv) * coordinates(start.uv);
+Minimum minimise_distortion(const Problem& problem, const std::vector<Chart>& starts,
+                            const Progress& progress) {
+    Distortion distortion(problem.domain, problem.energy);
+    VectorXd x = scaled_start(problem.domain, starts);
     Minimum result;
     if (distortion.value(x) > near_isometry * distortion.total_area()) {
-        const std::vector<LengthConstraint> none;
-        ConstrainedNewton approach(region, none, distortion, progress);
+        const std::vector<ConstraintRow> none;
+        const Problem free{problem.domain, none, problem.energy, {}, problem.threads};
+        ConstrainedNewton approach(free, distortion, progress);
         approach.run(x, approach_decrease, near_isometry);
-        result.iterations = approach.iterations();
+        approach.report(result);
     }
-    ConstrainedNewton newton(region, constraints, distortion, progress);
-    const bool converged = newton.run(x, tolerance::newton_decrease, 0.0);
-    if (newton.worst_length_error() > tolerance::locked_length) {
-        fail_infeasible(region, constraints, newton.residual());
-    }
-    if (!converged) result.warnings.push_back(not_converged(region, newton));
-    result.chart.uv = points_of(x);
-    result.iterations += newton.iterations();
-    result.energy = newton.energy() / distortion.total_area();
-    result.worst_length_error = newton.worst_length_error();
+    ConstrainedNewton newton(problem, distortion, progress);
+    result.converged = newton.run(x, 0.0, 0.0);
+    newton.report(result);
+    result.charts = problem.domain.charts(x);
     return result;
 }
 

@@ -7,66 +7,81 @@
 #include <span>
 
 #include "core/error.h"
+#include "core/numerics/nested_dissection.h"
 #include "core/numerics/tolerances.h"
 
 namespace lastflat {
 namespace {
 
-using Block = std::pair<Index, Index>;  ///< (column vertex, row vertex)
+using Pair = std::pair<Index, Index>;
 
-/// Every vertex with itself and every two that share an edge, by column.
-std::vector<Block> vertex_blocks(const Region& region) {
-    std::vector<Block> blocks;
-    for (const Triangle& t : region.triangles) {
-        for (std::size_t i = 0; i < 3; ++i) blocks.push_back(std::minmax(t[i], t[(i + 1) % 3]));
+std::size_t at(Index i) {
+    return static_cast<std::size_t>(i);
+}
+
+/// Every two vertices that share an edge or a constraint's bend, the smaller first; with repeats.
+std::vector<Pair> vertex_pairs(const Domain& domain, const std::vector<ConstraintRow>& rows) {
+    std::vector<Pair> pairs;
+    for (std::size_t r = 0; r < domain.regions.size(); ++r) {
+        const Index first = domain.first[r];
+        for (const Triangle& t : domain.regions[r]->triangles) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto [a, b] = std::minmax(t[i], t[(i + 1) % 3]);
+                pairs.emplace_back(a + first, b + first);
+            }
+        }
     }
-    for (Index v = 0; v < static_cast<Index>(region.positions.size()); ++v)
-        blocks.emplace_back(v, v);
+    for (const ConstraintRow& row : rows) {
+        for (const Term& term : row.terms) {
+            if (term.kind != TermKind::coordinate) pairs.push_back(std::minmax(term.a, term.b));
+        }
+    }
+    return pairs;
+}
+
+std::vector<Index> vertices_of(const ConstraintRow& row) {
+    std::vector<Index> vertices;
+    for (const Term& term : row.terms) {
+        vertices.push_back(term.a);
+        if (term.kind != TermKind::coordinate) vertices.push_back(term.b);
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+}
+
+/// The lower triangle's pattern, all values zero: a 2x2 block for every pair and vertex, a row for
+/// every constraint.
+SparseMatrix pattern(const Domain& domain, const std::vector<ConstraintRow>& rows) {
+    const Index n = domain.vertices();
+    const auto m = static_cast<Index>(rows.size());
+    std::vector<Pair> blocks = vertex_pairs(domain, rows);
+    for (Index v = 0; v < n; ++v) blocks.emplace_back(v, v);
     std::sort(blocks.begin(), blocks.end());
     blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-    return blocks;
-}
-
-/// Per vertex, the constraints that it takes part in, ascending.
-std::vector<std::vector<Index>> constraints_by_vertex(
-    const Region& region, const std::vector<LengthConstraint>& constraints) {
-    std::vector<std::vector<Index>> result(region.positions.size());
-    for (std::size_t k = 0; k < constraints.size(); ++k) {
-        const auto constraint = static_cast<Index>(k);
-        for (const auto& [a, b] : constraints[k].edges) {
-            for (const Index v : {a, b}) {
-                auto& list = result[static_cast<std::size_t>(v)];
-                if (list.empty() || list.back() != constraint) list.push_back(constraint);
-            }
-        }
+    std::vector<Pair> in_rows;  // (vertex, row)
+    for (Index k = 0; k < m; ++k) {
+        for (const Index v : vertices_of(rows[at(k)])) in_rows.emplace_back(v, k);
     }
-    return result;
-}
-
-/// The lower triangle's pattern, all values zero: a 2x2 block for every edge and vertex, a row for
-/// every constraint.
-SparseMatrix pattern(const Region& region, const std::vector<LengthConstraint>& constraints) {
-    const auto n = static_cast<Index>(region.positions.size());
-    const auto m = static_cast<Index>(constraints.size());
-    const auto blocks = vertex_blocks(region);
-    const auto constraints_at = constraints_by_vertex(region, constraints);
+    std::sort(in_rows.begin(), in_rows.end());
     SparseMatrix matrix(2 * n + m, 2 * n + m);
-    matrix.reserve(static_cast<Eigen::Index>(4 * blocks.size()) + 4 * m);
-    std::size_t next = 0;
-    for (Index column = 0; column < 2 * n; ++column) {
-        const Index v = column / 2, side = column % 2;
-        matrix.startVec(column);
-        std::size_t i = next;
-        for (; i < blocks.size() && blocks[i].first == v; ++i) {
-            const Index w = blocks[i].second;
-            for (Index k = w == v ? side : 0; k < 2; ++k) {
-                matrix.insertBackByOuterInner(column, 2 * w + k) = 0.0;
+    matrix.reserve(static_cast<Eigen::Index>(4 * blocks.size() + 2 * in_rows.size()) + m);
+    std::size_t block = 0, in_row = 0;
+    for (Index v = 0; v < n; ++v) {
+        std::size_t b = block, k = in_row;
+        for (Index side = 0; side < 2; ++side) {
+            const Index column = 2 * v + side;
+            matrix.startVec(column);
+            for (b = block; b < blocks.size() && blocks[b].first == v; ++b) {
+                const Index w = blocks[b].second;
+                for (Index i = w == v ? side : 0; i < 2; ++i)
+                    matrix.insertBackByOuterInner(column, 2 * w + i) = 0.0;
             }
+            for (k = in_row; k < in_rows.size() && in_rows[k].first == v; ++k)
+                matrix.insertBackByOuterInner(column, 2 * n + in_rows[k].second) = 0.0;
         }
-        for (const Index constraint : constraints_at[static_cast<std::size_t>(v)]) {
-            matrix.insertBackByOuterInner(column, 2 * n + constraint) = 0.0;
-        }
-        if (side == 1) next = i;
+        block = b;
+        in_row = k;
     }
     for (Index k = 0; k < m; ++k) {
         matrix.startVec(2 * n + k);
@@ -76,35 +91,76 @@ SparseMatrix pattern(const Region& region, const std::vector<LengthConstraint>& 
     return matrix;
 }
 
-/// Three coordinates that hold the chart in place: both of one vertex, and of the vertex furthest
-/// from it the one across the line between them. A rigid motion costs nothing, so holding it takes
-/// nothing from the step; left free, its curvature away from the minimum may be negative. Where the
-/// scale is free as well, the fourth holds it.
-std::vector<Index> pinned_coordinates(const Eigen::VectorXd& x, bool scale_free) {
-    Index far = 0;
-    double largest = -1.0;
-    for (Index v = 1; 2 * v < x.size(); ++v) {
-        const double distance = (x.segment<2>(2 * v) - x.head<2>()).squaredNorm();
-        if (distance <= largest) continue;
-        largest = distance;
-        far = v;
+/// Places of the vertices for the dissection; the regions far from each other, so that the first
+/// planes run between them.
+Points3 spread_positions(const Domain& domain) {
+    Points3 positions;
+    positions.reserve(at(domain.vertices()));
+    for (std::size_t r = 0; r < domain.regions.size(); ++r) {
+        const Vec3 offset(static_cast<double>(r) * 10.0 * tolerance::largest_coordinate_mm, 0, 0);
+        for (const Vec3& p : domain.regions[r]->positions) positions.emplace_back(p + offset);
     }
-    const Vec2 between = (x.segment<2>(2 * far) - x.head<2>()).cwiseAbs();
-    if (scale_free) return {0, 1, 2 * far, 2 * far + 1};
-    return {0, 1, 2 * far + (between.x() > between.y() ? 1 : 0)};
+    return positions;
+}
+
+/// The last block that both are in or below: the deepest common ancestor, or `none`.
+Index common_block(const std::vector<UnknownBlock>& blocks, Index a, Index b, Index none) {
+    while (a != b) {  // parents come after their children
+        Index& lower = a < b ? a : b;
+        lower = blocks[at(lower)].parent;
+        if (lower < 0) return none;
+    }
+    return a;
 }
 
 }  // namespace
 
-OptimalitySystem::OptimalitySystem(const Region& region,
-                                   const std::vector<LengthConstraint>& constraints,
-                                   Distortion& distortion)
-    : constraints_(constraints),
+OptimalitySystem::OptimalitySystem(const Domain& domain, const std::vector<ConstraintRow>& rows,
+                                   const std::vector<double>& compliance, Distortion& distortion,
+                                   std::size_t threads, const Progress& progress)
+    : domain_(domain),
+      rows_(rows),
+      compliance_(compliance),
       distortion_(distortion),
-      unknowns_(2 * static_cast<Index>(region.positions.size())),
-      matrix_(pattern(region, constraints)) {
+      threads_(threads),
+      progress_(progress),
+      unknowns_(2 * domain.vertices()),
+      matrix_(pattern(domain, rows)) {
     distortion_.bind(matrix_);
-    solver_.analyse(matrix_);
+    solver_.analyse(matrix_, elimination_blocks());
+}
+
+/// Both coordinates of the dissection's vertices. A multiplier comes after all vertices of its
+/// row, in the block where the last of them are: before them its pivot would be next to nothing.
+std::vector<UnknownBlock> OptimalitySystem::elimination_blocks() const {
+    const auto dissection = nested_dissection(
+        vertex_graph(domain_.vertices(), vertex_pairs(domain_, rows_)), spread_positions(domain_));
+    std::vector<UnknownBlock> blocks(dissection.size());
+    std::vector<Index> block_of(at(domain_.vertices()));
+    for (std::size_t b = 0; b < dissection.size(); ++b) {
+        blocks[b].parent = dissection[b].parent;
+        for (const Index v : dissection[b].vertices) {
+            block_of[at(v)] = static_cast<Index>(b);
+            for (const Index i : {2 * v, 2 * v + 1}) blocks[b].unknowns.push_back(i);
+        }
+    }
+    std::vector<Index> across;  // rows whose vertices have no block in common
+    for (Index k = 0; k < static_cast<Index>(rows_.size()); ++k) {
+        const auto vertices = vertices_of(rows_[at(k)]);
+        Index block = block_of[at(vertices.front())];
+        for (const Index v : vertices) {
+            if (block >= 0) block = common_block(blocks, block, block_of[at(v)], -1);
+        }
+        (block < 0 ? across : blocks[at(block)].unknowns).push_back(unknowns_ + k);
+    }
+    if (!across.empty()) {
+        const auto top = static_cast<Index>(blocks.size());
+        for (UnknownBlock& block : blocks) {
+            if (block.parent < 0) block.parent = top;
+        }
+        blocks.push_back({-1, across});
+    }
+    return blocks;
 }
 
 double& OptimalitySystem::entry(Index row, Index column) {
@@ -113,75 +169,151 @@ double& OptimalitySystem::entry(Index row, Index column) {
     return matrix_.valuePtr()[std::lower_bound(begin, end, row) - matrix_.innerIndexPtr()];
 }
 
-Eigen::VectorXd OptimalitySystem::residual(const Eigen::VectorXd& x) const {
-    Eigen::VectorXd c(static_cast<Eigen::Index>(constraints_.size()));
-    for (Eigen::Index k = 0; k < c.size(); ++k) {
-        const auto& constraint = constraints_[static_cast<std::size_t>(k)];
-        c[k] = flat_length(constraint, x) - constraint.length;
+/// Adds a block of the Hessian at rows of vertex a, columns of vertex b, and its mirror image.
+void OptimalitySystem::add_block(Index a, Index b, const Eigen::Matrix2d& block) {
+    for (Index i = 0; i < 2; ++i) {
+        for (Index j = 0; j < 2; ++j) {
+            if (a == b && j > i) continue;
+            if (a >= b)
+                entry(2 * a + i, 2 * b + j) += block(i, j);
+            else
+                entry(2 * b + j, 2 * a + i) += block(i, j);
+        }
     }
-    return c;
 }
 
-/// Gradient: the unit vectors along the edges. Hessian: an edge that turns grows longer by second
-/// order; under compression (multiplier < 0) that lowers the energy, which a projected system
-/// drops.
-void OptimalitySystem::add_constraint(Index row, const Eigen::VectorXd& x, double multiplier,
-                                      HessianKind kind) {
-    const double weight = kind == HessianKind::exact ? multiplier : std::max(multiplier, 0.0);
-    for (const auto& [a, b] : constraints_[static_cast<std::size_t>(row - unknowns_)].edges) {
-        const Vec2 along = x.segment<2>(2 * a) - x.segment<2>(2 * b);
-        const double length = along.norm();
-        const Vec2 unit = along / length;
-        const Eigen::Matrix2d bend =
-            weight / length * (Eigen::Matrix2d::Identity() - unit * unit.transpose());
-        for (Index i = 0; i < 2; ++i) {
-            entry(row, 2 * a + i) += unit[i];
-            entry(row, 2 * b + i) -= unit[i];
-            for (Index j = 0; j < 2; ++j) {
-                if (j <= i) {
-                    entry(2 * a + i, 2 * a + j) += bend(i, j);
-                    entry(2 * b + i, 2 * b + j) += bend(i, j);
-                }
-                entry(2 * std::max(a, b) + i, 2 * std::min(a, b) + j) -= bend(i, j);
+/// Gradient and Hessian of one term. An edge that turns grows longer by second order; under
+/// compression (a negative multiplier) that lowers the energy, which a projected system drops.
+void OptimalitySystem::add_term(Index row, const Term& term, const Eigen::VectorXd& x,
+                                double multiplier, HessianKind kind) {
+    const double weight = multiplier * term.factor;
+    const Vec2 a = x.segment<2>(2 * term.a);
+    switch (term.kind) {
+        case TermKind::coordinate: entry(row, 2 * term.a + term.b) += term.factor; return;
+        case TermKind::length: {
+            const Vec2 along = a - x.segment<2>(2 * term.b);
+            const double length = along.norm();
+            const Vec2 unit = along / length;
+            for (Index i = 0; i < 2; ++i) {
+                entry(row, 2 * term.a + i) += term.factor * unit[i];
+                entry(row, 2 * term.b + i) -= term.factor * unit[i];
+            }
+            if (kind == HessianKind::projected && weight <= 0.0) return;
+            const Eigen::Matrix2d bend =
+                weight / length * (Eigen::Matrix2d::Identity() - unit * unit.transpose());
+            add_block(term.a, term.a, bend);
+            add_block(term.b, term.b, bend);
+            add_block(term.a, term.b, -bend);
+            return;
+        }
+        case TermKind::cross: {
+            const Vec2 b = x.segment<2>(2 * term.b);
+            entry(row, 2 * term.a) += term.factor * b.y();
+            entry(row, 2 * term.a + 1) -= term.factor * b.x();
+            entry(row, 2 * term.b) -= term.factor * a.y();
+            entry(row, 2 * term.b + 1) += term.factor * a.x();
+            if (kind == HessianKind::projected) return;
+            Eigen::Matrix2d turn;
+            turn << 0.0, weight, -weight, 0.0;
+            add_block(term.a, term.b, turn);
+            return;
+        }
+    }
+}
+
+void OptimalitySystem::add_forces(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
+                                  Eigen::VectorXd& gradient) const {
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+        for (const Term& term : rows_[k].terms) {
+            const double weight = multipliers[static_cast<Eigen::Index>(k)] * term.factor;
+            const Vec2 a = x.segment<2>(2 * term.a);
+            if (term.kind == TermKind::coordinate) {
+                gradient[2 * term.a + term.b] += weight;
+                continue;
+            }
+            const Vec2 b = x.segment<2>(2 * term.b);
+            if (term.kind == TermKind::length) {
+                const Vec2 unit = weight * (a - b).normalized();
+                gradient.segment<2>(2 * term.a) += unit;
+                gradient.segment<2>(2 * term.b) -= unit;
+            } else {
+                gradient.segment<2>(2 * term.a) += weight * Vec2(b.y(), -b.x());
+                gradient.segment<2>(2 * term.b) += weight * Vec2(-a.y(), a.x());
             }
         }
     }
 }
 
+/// Stiffens three coordinates of every region: both of one vertex, and of the vertex furthest from
+/// it the one across the line between them. A rigid motion costs nothing, so holding it takes
+/// nothing from the step; left free, its curvature away from the minimum may be negative. Where the
+/// scale is free as well, the fourth holds it. A region with pins is held by them.
+void OptimalitySystem::hold_in_place(const Eigen::VectorXd& x, double stiffness) {
+    for (std::size_t r = 0; r < domain_.regions.size(); ++r) {
+        const Index first = domain_.first[r], end = domain_.first[r + 1];
+        const bool pinned = std::any_of(rows_.begin(), rows_.end(), [&](const ConstraintRow& row) {
+            return row.terms.front().kind == TermKind::coordinate && row.vertex >= first &&
+                   row.vertex < end;
+        });
+        if (pinned) continue;
+        Index far = first;
+        double largest = -1.0;
+        for (Index v = first + 1; v < end; ++v) {
+            const double distance = (x.segment<2>(2 * v) - x.segment<2>(2 * first)).squaredNorm();
+            if (distance <= largest) continue;
+            largest = distance;
+            far = v;
+        }
+        const Vec2 between = (x.segment<2>(2 * far) - x.segment<2>(2 * first)).cwiseAbs();
+        diagonal(2 * first) += stiffness;
+        diagonal(2 * first + 1) += stiffness;
+        diagonal(2 * far + (between.x() > between.y() ? 1 : 0)) += stiffness;
+        if (distortion_.scale_free())
+            diagonal(2 * far + (between.x() > between.y() ? 0 : 1)) += stiffness;
+    }
+}
+
 double OptimalitySystem::fill(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
-                              HessianKind kind) {
+                              const std::vector<Held>& held, HessianKind kind) {
     std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
-    gradient_ = distortion_.differentiate(x, kind, matrix_);
+    distortion_.add_hessian(x, kind, matrix_);
     double trace = 0.0;
-    for (Index i = 0; i < unknowns_; ++i) trace += entry(i, i);
+    for (Index i = 0; i < unknowns_; ++i) trace += diagonal(i);
     const double mean = trace / unknowns_;
-    for (const Index i : pinned_coordinates(x, distortion_.scale_free()))
-        entry(i, i) += tolerance::pin * mean;
+    hold_in_place(x, tolerance::pin * mean);
     regularisation_ = tolerance::multiplier_regularisation / mean;
-    for (Index k = 0; k < static_cast<Index>(constraints_.size()); ++k) {
-        add_constraint(unknowns_ + k, x, multipliers[k], kind);
-        entry(unknowns_ + k, unknowns_ + k) = -regularisation_;
+    regularised_.clear();
+    for (Index k = 0; k < static_cast<Index>(rows_.size()); ++k) {
+        const Index row = unknowns_ + k;
+        if (held[at(k)] == Held::not_held) {
+            diagonal(row) = -1.0 / mean;
+            continue;
+        }
+        for (const Term& term : rows_[at(k)].terms) add_term(row, term, x, multipliers[k], kind);
+        const bool soft = compliance_[at(k)] > 0.0;
+        diagonal(row) = soft ? -compliance_[at(k)] : -regularisation_;
+        if (!soft) regularised_.push_back(row);
     }
     return mean;
 }
 
 void OptimalitySystem::shift_diagonal(double amount) {
-    for (Index i = 0; i < unknowns_; ++i) entry(i, i) += amount;
+    for (Index i = 0; i < unknowns_; ++i) diagonal(i) += amount;
 }
 
 bool OptimalitySystem::has_right_inertia() {
-    return solver_.factor(matrix_) &&
-           solver_.negative_pivots() == static_cast<Index>(constraints_.size());
+    return solver_.factor(matrix_, progress_, threads_) &&
+           solver_.negative_pivots() == static_cast<Index>(rows_.size());
 }
 
 void OptimalitySystem::factor(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
-                              HessianKind kind) {
+                              const std::vector<Held>& held, HessianKind kind) {
     // A shift of the diagonal shortens the step but moves no minimum. An exact Hessian may need
     // much of it where a locked curve is about to buckle, a projected one only against round-off.
     static constexpr std::array exact_shifts{tolerance::rigid_motion, 1e-4, 1e-3, 1e-2, 1e-1};
     static constexpr std::array projected_shifts{tolerance::rigid_motion, 1e-7, 1e-5, 1e-3};
     const auto attempt = [&](HessianKind attempted, std::span<const double> shifts) {
-        const double mean = fill(x, multipliers, attempted);
+        const double mean = fill(x, multipliers, held, attempted);
         double shifted = 0.0;
         for (const double shift : shifts) {
             shift_diagonal((shift - shifted) * mean);
@@ -200,11 +332,10 @@ Eigen::VectorXd OptimalitySystem::solve(const Eigen::VectorXd& top,
     Eigen::VectorXd right(top.size() + bottom.size());
     right << top, bottom;
     Eigen::VectorXd solution = solver_.solve(right);
-    for (int refinement = 0; refinement < 2; ++refinement) {
-        Eigen::VectorXd rest = right - matrix_.selfadjointView<Eigen::Lower>() * solution;
-        rest.tail(bottom.size()) -= regularisation_ * solution.tail(bottom.size());
-        solution += solver_.solve(rest);
-    }
+    // One refinement takes the multipliers' regularisation out again.
+    Eigen::VectorXd rest = right - matrix_.selfadjointView<Eigen::Lower>() * solution;
+    for (const Index row : regularised_) rest[row] -= regularisation_ * solution[row];
+    solution += solver_.solve(rest);
     return solution;
 }
 

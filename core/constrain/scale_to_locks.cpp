@@ -2,16 +2,22 @@
 
 #include <cmath>
 
+#include "core/constrain/constraint_rows.h"
+
 namespace lastflat {
 
-Chart scaled_to_locks(const Region& region, Chart chart, const std::vector<Lock>& locks) {
+Chart scaled_to_locks(const Region& region, Chart chart,
+                      const std::vector<Constraint>& constraints) {
+    std::vector<Constraint> locks;
+    for (const Constraint& constraint : constraints) {
+        if (constraint.kind == ConstraintKind::lock) locks.push_back(constraint);
+    }
+    const Domain domain({&region});
+    const Eigen::VectorXd x = domain.coordinates({chart});
     double in_space = 0.0, flat = 0.0;
-    for (const LengthConstraint& constraint : length_constraints(region, locks)) {
-        in_space += constraint.length;
-        for (const auto& [a, b] : constraint.edges) {
-            flat += (chart.uv[static_cast<std::size_t>(a)] - chart.uv[static_cast<std::size_t>(b)])
-                        .norm();
-        }
+    for (const ConstraintRow& row : constraint_rows(domain, locks)) {
+        in_space += row.most;
+        flat += row.value(x);
     }
     const double scale =
         flat > 0.0 ? in_space / flat

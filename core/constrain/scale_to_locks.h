@@ -1,7 +1,7 @@
 // One uniform scale for methods that cannot keep single lengths.
 #pragma once
 
-#include "core/constrain/length_constraints.h"
+#include "core/constrain/constraint.h"
 #include "core/parameterize/chart.h"
 
 namespace lastflat {
@@ -11,6 +11,6 @@ namespace lastflat {
 ///
 /// Paper: [kim-kim], section 3 ("lastly, we rescale"), which gives no formula.
 [[nodiscard]] Chart scaled_to_locks(const Region& region, Chart chart,
-                                    const std::vector<Lock>& locks);
+                                    const std::vector<Constraint>& constraints);
 
 }  // namespace lastflat

@@ -33,7 +33,7 @@ Verdict graded(double value, double pass, double warn) {
 
 /// Locked: kept or not. The topline gapes by millimetres; every other edge is lasted and may be
 /// pleated by a share of its length.
-Verdict verdict_on(const std::string& curve, const Lock* lock, const Lengths& lengths) {
+Verdict verdict_on(const std::string& curve, const Constraint* lock, const Lengths& lengths) {
     const double error = std::abs(lengths.flat - lengths.in_space);
     if (lock != nullptr) {
         const double relative =
@@ -44,10 +44,14 @@ Verdict verdict_on(const std::string& curve, const Lock* lock, const Lengths& le
     return graded(error / lengths.in_space, 0.01, 0.02);
 }
 
-const Lock* lock_on(const std::string& curve, const std::vector<Lock>& locks) {
-    const auto found = std::find_if(locks.begin(), locks.end(),
-                                    [&](const Lock& lock) { return lock.curve == curve; });
-    return found == locks.end() ? nullptr : &*found;
+const Constraint* lock_on(const std::string& curve, const std::string& region,
+                          const std::vector<Constraint>& constraints) {
+    const auto found =
+        std::find_if(constraints.begin(), constraints.end(), [&](const Constraint& c) {
+            return c.kind == ConstraintKind::lock && c.curve == curve &&
+                   (c.region.empty() || c.region == region);
+        });
+    return found == constraints.end() ? nullptr : &*found;
 }
 
 /// The run's vertices of the last, in the direction that is the smaller of the two.
@@ -63,11 +67,11 @@ std::vector<Index> sources_of(const Region& region, const CurveRun& run) {
 }  // namespace
 
 std::vector<CurveReport> measure_curves(const Region& region, const Points2& uv,
-                                        const std::vector<Lock>& locks) {
+                                        const std::vector<Constraint>& constraints) {
     std::vector<CurveReport> reports;
     for (const CurveRun& run : region.runs) {
         const Lengths lengths = lengths_of(region, uv, run);
-        const Lock* lock = lock_on(run.curve, locks);
+        const Constraint* lock = lock_on(run.curve, region.name, constraints);
         reports.push_back({run.curve, lock != nullptr, lengths.in_space, lengths.flat,
                            lengths.flat - lengths.in_space, lengths.worst_edge,
                            verdict_on(run.curve, lock, lengths)});

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/constrain/length_constraints.h"
+#include "core/constrain/constraint.h"
 #include "core/parameterize/chart.h"
 
 namespace lastflat {
@@ -47,7 +47,7 @@ struct PairReport {
 
 /// One entry per run of a named curve.
 [[nodiscard]] std::vector<CurveReport> measure_curves(const Region& region, const Points2& uv,
-                                                      const std::vector<Lock>& locks);
+                                                      const std::vector<Constraint>& constraints);
 
 /// Every two runs along the same vertices of the last.
 [[nodiscard]] std::vector<PairReport> measure_pairs(const std::vector<Region>& regions,

@@ -1,4 +1,4 @@
-// Closed-form singular value decomposition of 2x2 matrices.
+// Closed-form singular values of 2x2 matrices, and the directions along which they change.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,32 +6,28 @@
 
 namespace lastflat {
 
-/// F = u diag(sigma) v^T with rotations u, v (determinant +1); so sigma[0] >= |sigma[1]|, and
-/// sigma[1] has the sign of det F.
-struct Svd2 {
-    Eigen::Matrix2d u, v;
-    Eigen::Vector2d sigma;
+/// F = q A + r B with a rotation A = [c -s; s c], a reflection B = [c' s'; s' -c'] and q, r >= 0.
+/// F stretches by q + r and q - r; the smaller has the sign of det F. The singular values grow
+/// fastest along (A + B) / 2 and (A - B) / 2; along J A and J B, J a quarter turn, they rest.
+///
+/// No angle is computed: the rotations of the two sides enter as products only.
+struct StretchFrame {
+    double q, r;
+    Eigen::Vector2d rotation;    ///< c, s
+    Eigen::Vector2d reflection;  ///< c', s'; of a similarity (r = 0) any will do
+
+    [[nodiscard]] double larger() const { return q + r; }
+    [[nodiscard]] double smaller() const { return q - r; }
 };
 
-/// Splits F into a similarity (e, h) and an anti-similarity (f, g); their lengths are the mean and
-/// half the difference of the singular values, their angles the sum and difference of the
-/// rotations.
-[[nodiscard]] inline Svd2 svd2(const Eigen::Matrix2d& matrix) {
-    const double e = 0.5 * (matrix(0, 0) + matrix(1, 1));
-    const double f = 0.5 * (matrix(0, 0) - matrix(1, 1));
-    const double g = 0.5 * (matrix(1, 0) + matrix(0, 1));
-    const double h = 0.5 * (matrix(1, 0) - matrix(0, 1));
-    const double q = std::hypot(e, h);
-    const double r = std::hypot(f, g);
-    const double a1 = std::atan2(g, f);
-    const double a2 = std::atan2(h, e);
-    const double beta = 0.5 * (a2 + a1);   // angle of u
-    const double gamma = 0.5 * (a2 - a1);  // angle of v^T
-    Svd2 result;
-    result.u << std::cos(beta), -std::sin(beta), std::sin(beta), std::cos(beta);
-    result.v << std::cos(gamma), std::sin(gamma), -std::sin(gamma), std::cos(gamma);
-    result.sigma = {q + r, q - r};
-    return result;
+[[nodiscard]] inline StretchFrame stretch_frame(const Eigen::Matrix2d& F) {
+    const Eigen::Vector2d similar(F(0, 0) + F(1, 1), F(1, 0) - F(0, 1));
+    const Eigen::Vector2d opposite(F(0, 0) - F(1, 1), F(1, 0) + F(0, 1));
+    const double q = std::sqrt(similar.squaredNorm()), r = std::sqrt(opposite.squaredNorm());
+    StretchFrame frame{0.5 * q, 0.5 * r, Eigen::Vector2d::UnitX(), Eigen::Vector2d::UnitX()};
+    if (q > 0.0) frame.rotation = similar / q;
+    if (r > 0.0) frame.reflection = opposite / r;
+    return frame;
 }
 
 }  // namespace lastflat

@@ -15,9 +15,9 @@ inline constexpr double largest_coordinate_mm = 1e6;
 inline constexpr double locked_length = 1e-6;
 inline constexpr double solver_length = 1e-11;
 
-/// Newton's method has converged when the decrease that its model still promises is below this
-/// share of the energy; the energy's own round-off is about 1e-15.
-inline constexpr double newton_decrease = 1e-13;
+/// Newton's method has converged when the projected gradient (see `Minimum`) is below this; its
+/// round-off is about 1e-14.
+inline constexpr double projected_gradient = 1e-10;
 
 /// Added to the diagonal of a Hessian, as a share of its mean: a rigid motion costs no energy, so
 /// the Hessian alone is singular in three directions. The least of the shifts that are tried.

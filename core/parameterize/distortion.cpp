@@ -17,7 +17,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// The triangle's edges from its first vertex, in its own plane, first edge along x.
 Eigen::Matrix2d rest_edges(const Region& region, const Triangle& t) {
@@ -46,59 +45,74 @@ double smallest_positive_root(double a, double b, double c) {
     return least;
 }
 
-/// d vec(F) / d x: F = [x1 - x0, x2 - x0] B, vec by columns.
-Eigen::Matrix<double, 4, 6> chain(const Eigen::Matrix2d& B) {
-    Eigen::Matrix<double, 4, 6> G = Eigen::Matrix<double, 4, 6>::Zero();
-    for (Eigen::Index column = 0; column < 2; ++column) {
-        for (Eigen::Index i = 0; i < 2; ++i) {
-            G(2 * column + i, 0 + i) = -B(0, column) - B(1, column);
-            G(2 * column + i, 2 + i) = B(0, column);
-            G(2 * column + i, 4 + i) = B(1, column);
-        }
-    }
-    return G;
+Vec2 quarter_turn(const Vec2& v) {
+    return {-v.y(), v.x()};
 }
 
-/// A direction in the space of maps, U M V^T, as a vector.
-Eigen::Vector4d direction(const Svd2& svd, const Eigen::Matrix2d& M) {
-    const Eigen::Matrix2d D = svd.u * M * svd.v.transpose();
-    return Eigen::Map<const Eigen::Vector4d>(D.data());
+using Direction = Eigen::Matrix<double, 6, 1>;
+
+/// How much of a direction in the space of maps, given by its products with the two rows of the
+/// inverse rest edges, every coordinate of the triangle moves: F = [x1 - x0, x2 - x0] B.
+Direction along(const Vec2& first, const Vec2& second) {
+    Direction result;
+    result << -first - second, first, second;
+    return result;
 }
 
-struct ElementDerivatives {
-    Vector6 gradient;
-    Matrix6 hessian;
+/// The stretches' derivatives along the four directions of a `StretchFrame`.
+struct StretchDirections {
+    Direction larger, smaller, twist, flip;
 };
 
-ElementDerivatives element_derivatives(const Eigen::Matrix2d& F, const Eigen::Matrix2d& B,
-                                       const IsotropicEnergy& energy, HessianKind kind) {
-    const Svd2 svd = svd2(F);
-    EnergyDerivatives e = energy.derivatives(svd.sigma[0], svd.sigma[1]);
+StretchDirections stretch_directions(const StretchFrame& frame, const Eigen::Matrix2d& B) {
+    const Vec2 b1 = B.row(0), b2 = B.row(1);
+    const auto rotated = [&](const Vec2& b) {
+        return Vec2(frame.rotation.x() * b.x() - frame.rotation.y() * b.y(),
+                    frame.rotation.y() * b.x() + frame.rotation.x() * b.y());
+    };
+    const auto reflected = [&](const Vec2& b) {
+        return Vec2(frame.reflection.x() * b.x() + frame.reflection.y() * b.y(),
+                    frame.reflection.y() * b.x() - frame.reflection.x() * b.y());
+    };
+    const Vec2 A1 = rotated(b1), A2 = rotated(b2), R1 = reflected(b1), R2 = reflected(b2);
+    const double h = std::sqrt(0.5);
+    return {along(0.5 * (A1 + R1), 0.5 * (A2 + R2)), along(0.5 * (A1 - R1), 0.5 * (A2 - R2)),
+            along(h * quarter_turn(A1), h * quarter_turn(A2)),
+            along(h * quarter_turn(R1), h * quarter_turn(R2))};
+}
+
+/// The nearest positive semi-definite one, in the norm of its eigenvalues.
+void project(EnergyDerivatives& e) {
+    e.twist = std::max(e.twist, 0.0);
+    e.flip = std::max(e.flip, 0.0);
+    if (e.d11 * e.d22 >= e.d12 * e.d12 && e.d11 + e.d22 >= 0.0) return;
     Eigen::Matrix2d stretch;
     stretch << e.d11, e.d12, e.d12, e.d22;
-    if (kind == HessianKind::projected) {
-        e.twist = std::max(e.twist, 0.0);
-        e.flip = std::max(e.flip, 0.0);
-        if (e.d11 * e.d22 < e.d12 * e.d12 || e.d11 + e.d22 < 0.0) {
-            Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
-            eigen.computeDirect(stretch);
-            stretch = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
-                      eigen.eigenvectors().transpose();
-        }
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+    eigen.computeDirect(stretch);
+    stretch = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
+              eigen.eigenvectors().transpose();
+    e.d11 = stretch(0, 0);
+    e.d12 = stretch(0, 1);
+    e.d22 = stretch(1, 1);
+}
+
+/// The lower triangle of it is meant.
+Matrix6 element_hessian(const Eigen::Matrix2d& F, const Eigen::Matrix2d& B, double weight,
+                        const IsotropicEnergy& energy, HessianKind kind) {
+    const StretchFrame frame = stretch_frame(F);
+    EnergyDerivatives e = energy.derivatives(frame.larger(), frame.smaller());
+    if (kind == HessianKind::projected) project(e);
+    const StretchDirections d = stretch_directions(frame, B);
+    Matrix6 hessian;
+    const Direction larger = weight * (e.d11 * d.larger + e.d12 * d.smaller);
+    const Direction smaller = weight * (e.d12 * d.larger + e.d22 * d.smaller);
+    const Direction twist = weight * e.twist * d.twist, flip = weight * e.flip * d.flip;
+    for (Eigen::Index j = 0; j < 6; ++j) {
+        hessian.col(j) =
+            d.larger[j] * larger + d.smaller[j] * smaller + d.twist[j] * twist + d.flip[j] * flip;
     }
-    const double h = std::sqrt(0.5);
-    Eigen::Matrix<double, 4, 4> Q;
-    Q.col(0) = direction(svd, Eigen::Vector2d(1, 0).asDiagonal());
-    Q.col(1) = direction(svd, Eigen::Vector2d(0, 1).asDiagonal());
-    Q.col(2) = direction(svd, (Eigen::Matrix2d() << 0, -h, h, 0).finished());
-    Q.col(3) = direction(svd, (Eigen::Matrix2d() << 0, h, h, 0).finished());
-    const Eigen::Matrix<double, 4, 6> P = Q.transpose() * chain(B);
-    ElementDerivatives result;
-    result.gradient = e.d1 * P.row(0).transpose() + e.d2 * P.row(1).transpose();
-    result.hessian = P.topRows<2>().transpose() * stretch * P.topRows<2>() +
-                     e.twist * P.row(2).transpose() * P.row(2) +
-                     e.flip * P.row(3).transpose() * P.row(3);
-    return result;
+    return hessian;
 }
 
 Index slot_of(const SparseMatrix& matrix, Index row, Index column) {
@@ -109,12 +123,16 @@ Index slot_of(const SparseMatrix& matrix, Index row, Index column) {
 
 }  // namespace
 
-Distortion::Distortion(const Region& region, const IsotropicEnergy& energy) : energy_(energy) {
-    elements_.reserve(region.triangles.size());
-    for (const Triangle& t : region.triangles) {
-        const Eigen::Matrix2d edges = rest_edges(region, t);
-        elements_.push_back({t, edges.inverse(), 0.5 * edges.determinant()});
-        total_area_ += elements_.back().area;
+Distortion::Distortion(const Domain& domain, const IsotropicEnergy& energy) : energy_(energy) {
+    for (std::size_t r = 0; r < domain.regions.size(); ++r) {
+        const Region& region = *domain.regions[r];
+        elements_.reserve(elements_.size() + region.triangles.size());
+        for (Triangle t : region.triangles) {
+            const Eigen::Matrix2d edges = rest_edges(region, t);
+            for (Index& v : t) v += domain.first[r];
+            elements_.push_back({t, edges.inverse(), 0.5 * edges.determinant()});
+            total_area_ += elements_.back().area;
+        }
     }
 }
 
@@ -130,10 +148,9 @@ double Distortion::value(const Eigen::VectorXd& x) const {
     double sum = 0.0;
     for (const Element& element : elements_) {
         const Eigen::Matrix2d F = gradient_of(element, x);
-        const double e = std::hypot(F(0, 0) + F(1, 1), F(1, 0) - F(0, 1));
-        const double r = std::hypot(F(0, 0) - F(1, 1), F(1, 0) + F(0, 1));
-        if (!(e > r)) return infinity;
-        sum += element.area * energy_.value(0.5 * (e + r), 0.5 * (e - r));
+        const StretchFrame frame = stretch_frame(F);
+        if (!(frame.smaller() > 0.0)) return infinity;
+        sum += element.area * energy_.value(frame.larger(), frame.smaller());
     }
     return sum;
 }
@@ -165,23 +182,30 @@ void Distortion::bind(const SparseMatrix& matrix) {
     }
 }
 
-Eigen::VectorXd Distortion::differentiate(const Eigen::VectorXd& x, HessianKind kind,
-                                          SparseMatrix& matrix) const {
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
+void Distortion::add_hessian(const Eigen::VectorXd& x, HessianKind kind,
+                             SparseMatrix& matrix) const {
     double* values = matrix.valuePtr();
     for (std::size_t e = 0; e < elements_.size(); ++e) {
         const Element& element = elements_[e];
-        const auto d =
-            element_derivatives(gradient_of(element, x), element.rest_inverse, energy_, kind);
-        for (Eigen::Index i = 0; i < 3; ++i) {
-            gradient.segment<2>(2 * element.vertices[static_cast<std::size_t>(i)]) +=
-                element.area * d.gradient.segment<2>(2 * i);
-        }
+        const Matrix6 hessian = element_hessian(gradient_of(element, x), element.rest_inverse,
+                                                element.area, energy_, kind);
         std::size_t slot = 0;
         for (Eigen::Index i = 0; i < 6; ++i) {
-            for (Eigen::Index j = 0; j <= i; ++j) {
-                values[slots_[e][slot++]] += element.area * d.hessian(i, j);
-            }
+            for (Eigen::Index j = 0; j <= i; ++j) values[slots_[e][slot++]] += hessian(i, j);
+        }
+    }
+}
+
+Eigen::VectorXd Distortion::gradient(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
+    for (const Element& element : elements_) {
+        const StretchFrame frame = stretch_frame(gradient_of(element, x));
+        const EnergyDerivatives e = energy_.derivatives(frame.larger(), frame.smaller());
+        const StretchDirections d = stretch_directions(frame, element.rest_inverse);
+        const Direction sum = element.area * (e.d1 * d.larger + e.d2 * d.smaller);
+        for (Eigen::Index i = 0; i < 3; ++i) {
+            gradient.segment<2>(2 * element.vertices[static_cast<std::size_t>(i)]) +=
+                sum.segment<2>(2 * i);
         }
     }
     return gradient;

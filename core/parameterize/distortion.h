@@ -1,7 +1,7 @@
 // The distortion of a whole chart, as a function of its points: value, gradient, Hessian.
 #pragma once
 
-#include "core/cut/region.h"
+#include "core/parameterize/domain.h"
 #include "core/parameterize/isotropic_energy.h"
 
 namespace lastflat {
@@ -12,11 +12,11 @@ enum class HessianKind {
     exact,      ///< as they are: quadratic convergence near a minimum
 };
 
-/// Sum over the triangles of surface area times energy density, mm^2. Coordinates are
-/// x0, y0, x1, y1, ... in vertex order.
+/// Sum over the triangles of surface area times energy density, mm^2.
 class Distortion {
 public:
-    Distortion(const Region& region, const IsotropicEnergy& energy);
+    /// `energy` must outlive the distortion.
+    Distortion(const Domain& domain, const IsotropicEnergy& energy);
 
     [[nodiscard]] double total_area() const { return total_area_; }
     [[nodiscard]] bool scale_free() const { return energy_.scale_free(); }
@@ -33,10 +33,11 @@ public:
     /// must hold a 2x2 block for every pair of vertices that share a triangle.
     void bind(const SparseMatrix& matrix);
 
-    /// Returns the gradient and adds the Hessian to the values of the bound matrix.
+    /// Adds the Hessian to the values of the bound matrix.
     /// Every triangle must be counter-clockwise at x.
-    [[nodiscard]] Eigen::VectorXd differentiate(const Eigen::VectorXd& x, HessianKind kind,
-                                                SparseMatrix& matrix) const;
+    void add_hessian(const Eigen::VectorXd& x, HessianKind kind, SparseMatrix& matrix) const;
+
+    [[nodiscard]] Eigen::VectorXd gradient(const Eigen::VectorXd& x) const;
 
 private:
     struct Element {

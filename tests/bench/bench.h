@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/constrain/length_constraints.h"
+#include "core/constrain/constraint.h"
 #include "core/cut/region.h"
 
 namespace lastflat::bench {
@@ -39,7 +39,7 @@ std::pair<double, double> medians(int runs, const A& a, const B& b) {
 struct Subject {
     std::string name;
     Region region;
-    std::vector<Lock> locks;
+    std::vector<Constraint> constraints;
 };
 
 /// Our sample last's halves, the face of our tests, and every model in the folders named by

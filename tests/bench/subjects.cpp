@@ -34,7 +34,7 @@ void add_regions(const std::string& name, std::string_view model, const FlattenO
             continue;
         }
         subjects.push_back(
-            {regions.size() > 1 ? name + ", " + region.name : name, region, options.locks});
+            {regions.size() > 1 ? name + ", " + region.name : name, region, options.constraints});
     }
 }
 

@@ -10,6 +10,7 @@
 #include "core/parameterize/start.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/peers.h"
+#include "tests/helpers/minimum.h"
 
 namespace lastflat::bench {
 namespace {
@@ -24,21 +25,18 @@ struct Row {
 Row ours(const Subject& subject, const std::string& name, const MethodOptions& method) {
     return {name, [&subject, method] {
                 return start_chart(subject.region,
-                                   locked_border_edges(subject.region, subject.locks), method)
+                                   locked_border_edges(subject.region, subject.constraints), method)
                     .chart.uv;
             }};
 }
 
 Row energy(const Subject& subject, const std::string& name, const IsotropicEnergy& density,
-           const std::vector<Lock>& locks) {
+           const std::vector<Constraint>& locks) {
     return {name,
             [&subject, &density, locks] {
                 const Start start = start_chart(
                     subject.region, locked_border_edges(subject.region, locks), MethodOptions{});
-                return minimise_distortion(subject.region, start.chart,
-                                           length_constraints(subject.region, locks), density,
-                                           Progress())
-                    .chart.uv;
+                return test::minimised(subject.region, start.chart, locks, density).charts[0].uv;
             },
             !density.scale_free()};
 }
@@ -66,8 +64,8 @@ std::vector<Row> rows(const Subject& subject, peers::CgalMesh& cgal) {
         energy(subject, "mips", mips_energy, {}),
         energy(subject, "green_lagrange (Maillot)", strain_energy, {}),
         energy(subject, "isometric, no locks", dirichlet_energy, {})};
-    if (!subject.locks.empty())
-        all.push_back(energy(subject, "**isometric**", dirichlet_energy, subject.locks));
+    if (!subject.constraints.empty())
+        all.push_back(energy(subject, "**isometric**", dirichlet_energy, subject.constraints));
     const Points2 border = circle_border(subject.region);
     all.push_back({"CGAL tutte, circle", [&cgal, border] { return cgal.tutte(border); }});
     all.push_back({"CGAL mean value, circle", [&cgal, border] { return cgal.mean_value(border); }});
@@ -85,7 +83,7 @@ std::string number(const char* format, double value) {
 
 double worst_locked_error(const Subject& subject, const Points2& uv) {
     double worst = 0.0;
-    for (const CurveReport& curve : measure_curves(subject.region, uv, subject.locks)) {
+    for (const CurveReport& curve : measure_curves(subject.region, uv, subject.constraints)) {
         if (curve.locked) worst = std::max(worst, std::abs(curve.error_mm));
     }
     return worst;
@@ -102,7 +100,7 @@ std::string line(const Subject& subject, const Row& row, int runs) {
     } catch (const std::runtime_error& error) {
         return text + "no map: " + error.what() + " |\n";
     }
-    if (!row.own_scale) uv = scaled_to_locks(subject.region, {uv}, subject.locks).uv;
+    if (!row.own_scale) uv = scaled_to_locks(subject.region, {uv}, subject.constraints).uv;
     const Metrics m = measure_distortion(subject.region, uv);
     for (const double stretch :
          {m.stretch_l2, m.stretch_linf, m.stretch_l2_normalised, m.stretch_linf_normalised,
@@ -110,7 +108,8 @@ std::string line(const Subject& subject, const Row& row, int runs) {
         text += number("%.6g", stretch) + " | ";
     }
     text += number("%.2g", m.area_error) + " | ";
-    text += (subject.locks.empty() ? "" : number("%.2g", worst_locked_error(subject, uv))) + " | ";
+    text += (subject.constraints.empty() ? "" : number("%.2g", worst_locked_error(subject, uv))) +
+            " | ";
     return text + std::to_string(m.flipped_triangles) + " | " + number("%.1f", median(times)) +
            " |\n";
 }

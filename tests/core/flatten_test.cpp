@@ -5,6 +5,7 @@
 #include "core/border/convex_border.h"
 #include "core/constrain/constrained_newton.h"
 #include "core/parameterize/start.h"
+#include "tests/helpers/minimum.h"
 #include "tests/helpers/sample.h"
 #include "tests/helpers/shapes.h"
 
@@ -164,17 +165,17 @@ TEST_SUITE("core/flatten") {
         REQUIRE(start.warnings.size() == 1);
         CHECK(start.warnings[0].code == "start_replaced");
         CHECK(flipped_triangles(region, start.chart.uv).empty());
-        const std::vector<Lock> locks{{"bottom"}, {"right"}, {"top"}, {"left"}};
-        Progress progress;
-        const Minimum minimum = minimise_distortion(
-            region, start.chart, length_constraints(region, locks), SymmetricDirichlet(), progress);
+        const std::vector<Constraint> locks{lock("bottom"), lock("right"), lock("top"),
+                                            lock("left")};
+        const Minimum minimum = test::minimised(region, start.chart, locks);
         CHECK(minimum.energy == doctest::Approx(1.0).epsilon(1e-10));
     }
 
     TEST_CASE("a lock on a curve that is not there is an error at its field") {
         const SampleLast last = make_sample_last();
         FlattenOptions options = test::sample_options(last);
-        options.locks.push_back({"collar"});
+        options.constraints.push_back(lock("collar"));
+        options.constraints.back().option = {"locks", "2"};
         try {
             (void)test::flatten_sample(last, options);
             FAIL("no error");

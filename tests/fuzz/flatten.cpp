@@ -29,7 +29,7 @@ FlattenOptions options_of(std::uint8_t choice) {
         CurveSource curve{"heel", {}};
         for (Index v = 0; v <= path; ++v) curve.vertices.push_back(v);
         options.curves.push_back(curve);
-        options.locks.push_back({"heel", (choice & 8) != 0 ? Keep::total : Keep::edges});
+        options.constraints.push_back(lock("heel", (choice & 8) != 0 ? Keep::total : Keep::edges));
         options.cut.cuts.push_back("heel");
     }
     return options;

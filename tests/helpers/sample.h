@@ -13,7 +13,7 @@ inline FlattenOptions sample_options(const SampleLast& last) {
     for (const auto& [name, vertices] : last.curves) options.curves.push_back({name, vertices});
     options.cut = {{"centre_front", "heel"},
                    {{"lateral", last.lateral_vertex, {}}, {"medial", last.medial_vertex, {}}}};
-    options.locks = {{"centre_front"}, {"heel"}};
+    options.constraints = {lock("centre_front"), lock("heel")};
     return options;
 }
 

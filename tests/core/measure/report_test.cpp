@@ -99,7 +99,7 @@ TEST_SUITE("core/measure/report") {
         CHECK(free[0].worst_edge_error_mm == doctest::Approx(0.075));
         CHECK(free[0].verdict == Verdict::warn);
         CHECK(free[1].verdict == Verdict::pass);
-        const auto locked = measure_curves(region, uv, {{"bottom"}, {"left"}});
+        const auto locked = measure_curves(region, uv, {lock("bottom"), lock("left")});
         CHECK(locked[0].verdict == Verdict::fail);
         CHECK(locked[3].verdict == Verdict::pass);
     }
@@ -108,8 +108,9 @@ TEST_SUITE("core/measure/report") {
         const Region region = flat_square();
         Points2 uv = stretched(region, 1, 1);
         uv[1].x() += 1;
-        CHECK(measure_curves(region, uv, {{"bottom", Keep::total}})[0].verdict == Verdict::pass);
-        CHECK(measure_curves(region, uv, {{"bottom", Keep::edges}})[0].verdict == Verdict::fail);
+        CHECK(measure_curves(region, uv, {lock("bottom", Keep::total)})[0].verdict ==
+              Verdict::pass);
+        CHECK(measure_curves(region, uv, {lock("bottom")})[0].verdict == Verdict::fail);
     }
 
     TEST_CASE("the two sides of one curve are compared") {

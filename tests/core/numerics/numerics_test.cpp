@@ -8,22 +8,25 @@
 #include "core/numerics/elimination_order.h"
 #include "core/numerics/polygon.h"
 #include "core/numerics/singular_values.h"
-#include "core/numerics/sparse_solvers.h"
 #include "core/numerics/spd_cholesky.h"
 
 namespace lastflat {
 
 TEST_SUITE("core/numerics/singular_values") {
-    TEST_CASE("the factors are rotations and multiply to the matrix") {
+    TEST_CASE("rotation and reflection multiply to the matrix, the stretches to its determinant") {
         for (int k = 0; k < 60; ++k) {
             Eigen::Matrix2d F;
             F << std::sin(1.0 * k), std::cos(2.3 * k), std::sin(3.1 * k + 1), std::cos(0.7 * k);
-            const Svd2 svd = svd2(F);
-            CHECK((svd.u * svd.sigma.asDiagonal() * svd.v.transpose() - F).norm() < 1e-14);
-            CHECK(svd.u.determinant() == doctest::Approx(1.0));
-            CHECK(svd.v.determinant() == doctest::Approx(1.0));
-            CHECK(svd.sigma[0] >= std::abs(svd.sigma[1]));
-            CHECK(svd.sigma.prod() == doctest::Approx(F.determinant()));
+            const StretchFrame frame = stretch_frame(F);
+            Eigen::Matrix2d A, B;
+            A << frame.rotation.x(), -frame.rotation.y(), frame.rotation.y(), frame.rotation.x();
+            B << frame.reflection.x(), frame.reflection.y(), frame.reflection.y(),
+                -frame.reflection.x();
+            CHECK((frame.q * A + frame.r * B - F).norm() < 1e-14);
+            CHECK(frame.rotation.norm() == doctest::Approx(1.0));
+            CHECK(frame.reflection.norm() == doctest::Approx(1.0));
+            CHECK(frame.larger() >= std::abs(frame.smaller()));
+            CHECK(frame.larger() * frame.smaller() == doctest::Approx(F.determinant()));
         }
     }
 }
@@ -66,28 +69,13 @@ TEST_SUITE("core/numerics/dominant_lu") {
     }
 }
 
-TEST_SUITE("core/numerics/sparse_solvers") {
+TEST_SUITE("core/numerics/spd_cholesky") {
     TEST_CASE("a matrix that is not positive definite is an error") {
         SparseMatrix A(2, 2);
         A.insert(0, 0) = 1;
         A.insert(0, 1) = 2;
         A.insert(1, 1) = 1;
         CHECK_THROWS_AS((void)SpdCholesky(A), Error);
-    }
-
-    TEST_CASE("the inertia of a quasi-definite system is counted") {
-        SparseMatrix A(3, 3);  // [2 0 1; 0 3 1; 1 1 -1]
-        A.insert(0, 0) = 2;
-        A.insert(1, 1) = 3;
-        A.insert(2, 0) = 1;
-        A.insert(2, 1) = 1;
-        A.insert(2, 2) = -1;
-        QuasiDefiniteSolver solver;
-        solver.analyse(A);
-        REQUIRE(solver.factor(A));
-        CHECK(solver.negative_pivots() == 1);
-        const Eigen::VectorXd x = solver.solve(Eigen::Vector3d(3, 4, 1));
-        CHECK((x - Eigen::Vector3d(1, 1, 1)).norm() < 1e-12);
     }
 }
 

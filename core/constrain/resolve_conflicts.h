@@ -1,0 +1,34 @@
+// What happens when constraints cannot all hold.
+#pragma once
+
+#include "core/constrain/constrained_newton.h"
+
+namespace lastflat {
+
+enum class OnConflict {
+    fail,   ///< Error{constraints_infeasible}
+    relax,  ///< the least important constraint gives way, as little as it has to
+};
+
+struct ConstrainedChart {
+    Minimum minimum;
+    std::vector<std::size_t> relaxed;  ///< constraints that gave way
+    std::vector<Warning> warnings;
+};
+
+/// Least distortion of a domain under constraints.
+///
+/// Out:    every constraint kept to `tolerance::locked_length` but the relaxed ones, of which the
+///         least important one of every set that fights gave way, as close as the others let it.
+///         Warning `not_converged` if the minimum was not reached (needles, slender shapes).
+/// Throws: Error{constraints_infeasible} with the smallest set found of constraints that fight: no
+///         member of it can be left out; how far each is off at the best compromise, and where.
+///         Others as `minimise_distortion`.
+[[nodiscard]] ConstrainedChart least_distortion(const Domain& domain,
+                                                const std::vector<Chart>& starts,
+                                                const std::vector<Constraint>& constraints,
+                                                const IsotropicEnergy& energy,
+                                                OnConflict on_conflict, std::size_t threads,
+                                                const Progress& progress);
+
+}  // namespace lastflat

@@ -1,0 +1,148 @@
+// Based on: George, "Nested Dissection of a Regular Finite Element Mesh", SIAM J. Numerical
+// Analysis 1973; Heath, Raghavan, "A Cartesian Parallel Nested Dissection Algorithm", SIAM J.
+// Matrix Analysis and Applications 1995.
+#include "core/numerics/nested_dissection.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <span>
+
+namespace lastflat {
+namespace {
+
+/// Blocks of at most this many vertices are dense enough as they are.
+constexpr std::size_t leaf_vertices = 12;
+
+std::size_t at(Index i) {
+    return static_cast<std::size_t>(i);
+}
+
+class Dissector {
+public:
+    Dissector(const VertexGraph& graph, const Points3& positions)
+        : graph_(graph),
+          positions_(positions),
+          order_(at(graph.size())),
+          side_(at(graph.size()), outside),
+          key_(at(graph.size())) {
+        for (Index v = 0; v < graph.size(); ++v) order_[at(v)] = v;
+    }
+
+    std::vector<EliminationBlock> run() {
+        parts_.push_back({0, order_.size(), -1});
+        while (!parts_.empty()) {
+            const Part part = parts_.back();
+            parts_.pop_back();
+            if (part.end - part.begin <= leaf_vertices) {
+                if (part.end > part.begin) add_block(part);
+            } else {
+                split(part);
+            }
+        }
+        // Parents were made first; they are to come last.
+        std::reverse(blocks_.begin(), blocks_.end());
+        const auto last = static_cast<Index>(blocks_.size()) - 1;
+        for (auto& block : blocks_) {
+            if (block.parent >= 0) block.parent = last - block.parent;
+        }
+        return std::move(blocks_);
+    }
+
+private:
+    static constexpr signed char outside = -1;
+    struct Part {
+        std::size_t begin, end;  ///< in order_
+        Index parent;
+    };
+
+    Index add_block(const Part& part) {
+        blocks_.push_back({part.parent,
+                           {order_.begin() + static_cast<std::ptrdiff_t>(part.begin),
+                            order_.begin() + static_cast<std::ptrdiff_t>(part.end)}});
+        return static_cast<Index>(blocks_.size()) - 1;
+    }
+
+    [[nodiscard]] Vec3 longest_direction(std::span<const Index> vertices) const {
+        Vec3 mean = Vec3::Zero();
+        for (const Index v : vertices) mean += positions_[at(v)];
+        mean /= static_cast<double>(vertices.size());
+        Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+        for (const Index v : vertices) {
+            const Vec3 p = positions_[at(v)] - mean;
+            covariance += p * p.transpose();
+        }
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+        eigen.computeDirect(covariance);
+        return eigen.eigenvectors().col(2);
+    }
+
+    /// Whether a vertex of `side` has a neighbour on the other side.
+    [[nodiscard]] bool faces_across(Index v, signed char side) const {
+        for (Index e = graph_.begin[at(v)]; e < graph_.begin[at(v) + 1]; ++e) {
+            if (side_[at(graph_.neighbours[at(e)])] == 1 - side) return true;
+        }
+        return false;
+    }
+
+    void split(const Part& part) {
+        const auto begin = order_.begin() + static_cast<std::ptrdiff_t>(part.begin);
+        const auto end = order_.begin() + static_cast<std::ptrdiff_t>(part.end);
+        const auto middle = begin + (end - begin) / 2;
+        const Vec3 direction = longest_direction({begin, end});
+        for (auto v = begin; v != end; ++v) key_[at(*v)] = direction.dot(positions_[at(*v)]);
+        std::nth_element(begin, middle, end, [&](Index a, Index b) {
+            return std::pair(key_[at(a)], a) < std::pair(key_[at(b)], b);
+        });
+        for (auto v = begin; v != end; ++v) side_[at(*v)] = v < middle ? 0 : 1;
+        const auto inner = [&](signed char side) {
+            return [this, side](Index v) { return !faces_across(v, side); };
+        };
+        const auto low_wall = std::stable_partition(begin, middle, inner(0));
+        const auto high_wall = std::stable_partition(middle, end, inner(1));
+        for (auto v = begin; v != end; ++v) side_[at(*v)] = outside;
+        // The shorter wall separates; it goes to the end of the part.
+        auto first_end = middle;
+        auto wall = high_wall;
+        if (middle - low_wall < end - high_wall) {
+            first_end = low_wall;
+            wall = std::rotate(low_wall, middle, end);
+        }
+        const auto place = [&](auto i) { return static_cast<std::size_t>(i - order_.begin()); };
+        const Index block =
+            wall == end ? part.parent : add_block({place(wall), part.end, part.parent});
+        parts_.push_back({part.begin, place(first_end), block});
+        parts_.push_back({place(first_end), place(wall), block});
+    }
+
+    const VertexGraph& graph_;
+    const Points3& positions_;
+    std::vector<Index> order_;
+    std::vector<signed char> side_;
+    std::vector<double> key_;
+    std::vector<Part> parts_;
+    std::vector<EliminationBlock> blocks_;
+};
+
+}  // namespace
+
+VertexGraph vertex_graph(Index vertices, std::vector<std::pair<Index, Index>> pairs) {
+    const std::size_t count = pairs.size();
+    for (std::size_t i = 0; i < count; ++i) pairs.emplace_back(pairs[i].second, pairs[i].first);
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    VertexGraph graph;
+    graph.begin.assign(at(vertices) + 1, 0);
+    for (const auto& [v, w] : pairs) {
+        ++graph.begin[at(v) + 1];
+        graph.neighbours.push_back(w);
+    }
+    for (std::size_t v = 0; v < at(vertices); ++v) graph.begin[v + 1] += graph.begin[v];
+    return graph;
+}
+
+std::vector<EliminationBlock> nested_dissection(const VertexGraph& graph,
+                                                const Points3& positions) {
+    return Dissector(graph, positions).run();
+}
+
+}  // namespace lastflat
