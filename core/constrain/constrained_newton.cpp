@@ -53,8 +53,8 @@ public:
                 return true;
             progress_.check();
             const Step step = take_step(x);
-            if (step.promised <= decrease * energy_) return true;
-            if (step.length == 0.0) return false;
+            if (step.promised < decrease * energy_) return true;
+            if (step.length == 0.0) return projected_gradient_ <= tolerance::stalled_gradient;
         }
         return false;
     }

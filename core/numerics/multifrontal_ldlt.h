@@ -22,7 +22,7 @@ struct UnknownBlock {
 /// Paper: [duff-1983], [liu-1992]; quasi-definite matrices need no pivoting: [vanderbei-1995].
 class MultifrontalLdlt {
 public:
-    /// `lower`: the lower triangle; only its pattern matters, and later matrices have the same.
+    /// `lower`: the lower triangle, compressed; only its pattern matters, and later matrices have the same.
     /// `blocks`: every unknown once, children before parents; blocks of different branches share
     /// no entry.
     void analyse(const SparseMatrix& lower, const std::vector<UnknownBlock>& blocks);

@@ -18,6 +18,9 @@ inline constexpr double solver_length = 1e-11;
 /// Newton's method has converged when the projected gradient (see `Minimum`) is below this; its
 /// round-off is about 1e-14.
 inline constexpr double projected_gradient = 1e-10;
+/// Where no step lowers the energy any more round-off hides the rest (needles, circles shrunk to
+/// points); above this it was not round-off.
+inline constexpr double stalled_gradient = 1e-7;
 
 /// Added to the diagonal of a Hessian, as a share of its mean: a rigid motion costs no energy, so
 /// the Hessian alone is singular in three directions. The least of the shifts that are tried.

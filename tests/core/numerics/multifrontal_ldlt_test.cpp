@@ -121,6 +121,7 @@ TEST_SUITE("core/numerics/multifrontal_ldlt") {
         A.insert(0, 0) = 1.0;
         A.insert(1, 0) = 2.0;
         A.insert(1, 1) = 1.0;
+        A.makeCompressed();
         MultifrontalLdlt solver;
         solver.analyse(A, {{-1, {0, 1}}});
         REQUIRE(solver.factor(A, Progress()));
