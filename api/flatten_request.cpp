@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "api/base64.h"
+#include "api/constraint_fields.h"
 #include "api/object_reader.h"
 
 namespace lastflat::api {
@@ -95,19 +96,6 @@ RegionRequest read_region(const std::string& name, const Field& field) {
     return region;
 }
 
-LockRequest read_lock(const Field& field, const RequestLimits& limits) {
-    ObjectReader reader(field);
-    LockRequest lock;
-    const auto curve = reader.find("curve");
-    if (!curve) field.fail("must have \"curve\"");
-    lock.curve = curve->text(limits.name_bytes);
-    if (const auto keep = reader.find("keep")) {
-        lock.keep = static_cast<KeepLength>(keep->choice({"edges", "total"}));
-    }
-    reader.finish();
-    return lock;
-}
-
 /// Which options a method has.
 bool takes_border(Method method) {
     return method <= Method::mean_value;
@@ -177,15 +165,6 @@ void read_geometry(ObjectReader& reader, const RequestLimits& limits, FlattenReq
             request.regions.push_back(region);
         }
     }
-    if (const auto locks = reader.find("locks")) {
-        for (const Field& item : locks->items(limits.list)) {
-            const LockRequest lock = read_lock(item, limits);
-            const bool twice = std::any_of(request.locks.begin(), request.locks.end(),
-                                           [&](const auto& l) { return l.curve == lock.curve; });
-            if (twice) item.fail("locks the curve '" + lock.curve + "' a second time");
-            request.locks.push_back(lock);
-        }
-    }
 }
 
 FlattenRequest read_request(const Field& field, const RequestLimits& limits) {
@@ -193,6 +172,7 @@ FlattenRequest read_request(const Field& field, const RequestLimits& limits) {
     ObjectReader reader(field);
     read_surface(reader, limits, request);
     read_geometry(reader, limits, request);
+    read_constraint_fields(reader, limits, request);
     if (const auto method = reader.find("method")) request.method = read_method(*method);
     if (const auto layout = reader.find("layout")) {
         ObjectReader inner(*layout);

@@ -53,9 +53,39 @@ struct RegionRequest {
     std::optional<PlaceRequest> contains;
 };
 
-struct LockRequest {
-    std::string curve;
+enum class ConstraintForm { lock, range, match, straight, total_area, pin };
+
+/// The fields of its form are filled, the others empty.
+struct ConstraintRequest {
+    ConstraintForm form = ConstraintForm::lock;
+    std::string curve, region;
+    std::string with_curve, with_region;
     KeepLength keep = KeepLength::edges;
+    std::optional<double> min_percent, max_percent;
+    std::int32_t vertex = -1;
+    std::array<double, 2> at_mm{};
+    std::int32_t priority = 0;
+    std::vector<std::string> path;  ///< where it stands: {"locks", "0"}
+};
+
+enum class Conflict { fail, relax };
+
+/// Of the three ways to tell a zone one is given.
+struct ZoneRequest {
+    std::string curve;
+    std::int32_t vertex = -1;
+    std::vector<std::int32_t> vertices;
+    double within_mm = 0.0;
+    double weight = 1.0;
+};
+
+struct WeightsRequest {
+    double stretch = 1.0, compression = 1.0;
+    std::vector<ZoneRequest> zones;
+};
+
+struct MaterialRequest {
+    double stretch_max_percent, compress_max_percent;
 };
 
 struct MethodRequest {
@@ -73,7 +103,10 @@ struct FlattenRequest {
     std::vector<CurveRequest> curves;
     std::vector<std::string> cuts;
     std::vector<RegionRequest> regions;
-    std::vector<LockRequest> locks;
+    std::vector<ConstraintRequest> constraints;  ///< "locks", then "constraints"
+    Conflict on_conflict = Conflict::fail;
+    WeightsRequest weights;
+    std::optional<MaterialRequest> material;
     MethodRequest method;
     bool draw_fan = false;  ///< "draw": ["fan"]
     std::string tag;
@@ -108,5 +141,6 @@ struct JsonSubmission {
 /// The wire's words, in the order of the enumerations.
 [[nodiscard]] const std::vector<std::string>& unit_names();
 [[nodiscard]] const std::vector<std::string>& method_names();
+[[nodiscard]] const std::vector<std::string>& constraint_names();
 
 }  // namespace lastflat::api

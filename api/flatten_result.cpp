@@ -33,6 +33,47 @@ Json to_json(const MetricsResult& m) {
             {"border_crossings", m.border_crossings}};
 }
 
+Json or_null(const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json to_json(const ConstraintResult& c) {
+    return {{"kind", c.kind},
+            {"title", c.title},
+            {"pointer", c.pointer},
+            {"region", c.region},
+            {"unit", c.unit},
+            {"asked_min", or_null(c.asked_min)},
+            {"asked_max", or_null(c.asked_max)},
+            {"reached", c.reached},
+            {"residual_mm", c.residual_mm},
+            {"position", c.position},
+            {"verdict", c.verdict}};
+}
+
+Json to_json(const PercentilesResult& p) {
+    return {{"p01", p.p01}, {"p05", p.p05}, {"p50", p.p50}, {"p95", p.p95}, {"p99", p.p99}};
+}
+
+Json to_json(const StretchResult& s) {
+    Json worst = Json::array();
+    for (const auto& w : s.worst) {
+        worst.push_back({{"position", w.position},
+                         {"larger_percent", w.larger_percent},
+                         {"smaller_percent", w.smaller_percent}});
+    }
+    Json json{{"larger_percent", to_json(s.larger_percent)},
+              {"smaller_percent", to_json(s.smaller_percent)},
+              {"most_stretched_percent", s.most_stretched_percent},
+              {"most_compressed_percent", s.most_compressed_percent},
+              {"worst", std::move(worst)}};
+    if (s.material_verdict) {
+        json["beyond_material"] = *s.beyond_material;
+        json["material_verdict"] = *s.material_verdict;
+    }
+    return json;
+}
+
 Json to_json(const FanResult& f) {
     Json spokes = Json::array();
     for (const auto& s : f.spokes) {
@@ -60,7 +101,10 @@ Json to_json(const RegionResult& r) {
               {"outline", {{"points_mm", r.outline_mm}, {"segments", std::move(segments)}}},
               {"curves", std::move(curves)},
               {"metrics", to_json(r.metrics)},
+              {"stretch", to_json(r.stretch)},
               {"iterations", r.iterations}};
+    if (r.energy) json["energy"] = *r.energy;
+    if (r.projected_gradient) json["projected_gradient"] = *r.projected_gradient;
     if (r.fan) json["fan"] = to_json(*r.fan);
     return json;
 }
@@ -68,8 +112,8 @@ Json to_json(const RegionResult& r) {
 }  // namespace
 
 std::string to_json(const FlattenResult& result) {
-    Json regions = Json::array(), pairs = Json::array(), placements = Json::array(),
-         warnings = Json::array();
+    Json regions = Json::array(), pairs = Json::array(), constraints = Json::array(),
+         placements = Json::array(), warnings = Json::array();
     for (const auto& r : result.regions) regions.push_back(to_json(r));
     for (const auto& p : result.pairs) {
         pairs.push_back({{"curve", p.curve},
@@ -78,6 +122,7 @@ std::string to_json(const FlattenResult& result) {
                          {"difference_mm", p.difference_mm},
                          {"verdict", p.verdict}});
     }
+    for (const auto& c : result.constraints) constraints.push_back(to_json(c));
     for (const auto& p : result.placements) {
         placements.push_back({{"region", p.region},
                               {"rotation_deg", p.rotation_deg},
@@ -90,6 +135,7 @@ std::string to_json(const FlattenResult& result) {
     }
     const Json document{{"regions", std::move(regions)},
                         {"pairs", std::move(pairs)},
+                        {"constraints", std::move(constraints)},
                         {"layout",
                          {{"width_mm", result.width_mm},
                           {"height_mm", result.height_mm},

@@ -24,6 +24,34 @@ struct CurveResult {
     std::string verdict;
 };
 
+struct ConstraintResult {
+    std::string kind, title;
+    std::string pointer;  ///< where it stands in the request
+    std::string region;
+    std::string unit;  ///< mm, mm2
+    std::optional<double> asked_min, asked_max;
+    double reached, residual_mm;
+    Place position;
+    std::string verdict;  ///< pass, relaxed, fail
+};
+
+struct PercentilesResult {
+    double p01, p05, p50, p95, p99;
+};
+
+struct WorstPlaceResult {
+    Place position;
+    double larger_percent, smaller_percent;
+};
+
+struct StretchResult {
+    PercentilesResult larger_percent, smaller_percent;
+    double most_stretched_percent, most_compressed_percent;
+    std::vector<WorstPlaceResult> worst;
+    std::optional<double> beyond_material;
+    std::optional<std::string> material_verdict;
+};
+
 struct MetricsResult {
     double stretch_l2, stretch_linf, stretch_l2_normalised, stretch_linf_normalised;
     double symmetric_dirichlet, angle_distortion;
@@ -52,7 +80,9 @@ struct RegionResult {
     std::vector<SegmentResult> segments;
     std::vector<CurveResult> curves;
     MetricsResult metrics;
+    StretchResult stretch;
     int iterations;
+    std::optional<double> energy, projected_gradient;
     std::optional<FanResult> fan;
 };
 
@@ -77,6 +107,7 @@ struct WarningResult {
 struct FlattenResult {
     std::vector<RegionResult> regions;
     std::vector<PairResult> pairs;
+    std::vector<ConstraintResult> constraints;
     double width_mm = 0.0, height_mm = 0.0;
     std::vector<PlacementResult> placements;
     std::vector<WarningResult> warnings;

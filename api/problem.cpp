@@ -20,6 +20,12 @@ nlohmann::ordered_json problem_json(const Problem& problem) {
     if (problem.pointer) json["pointer"] = *problem.pointer;
     if (problem.position) json["position"] = *problem.position;
     if (!problem.triangles.empty()) json["triangles"] = problem.triangles;
+    for (const ConflictMember& member : problem.conflict) {
+        json["conflict"].push_back({{"pointer", member.pointer},
+                                    {"title", member.title},
+                                    {"off_mm", member.off_mm},
+                                    {"position", member.position}});
+    }
     return json;
 }
 

@@ -9,6 +9,14 @@
 
 namespace lastflat::api {
 
+/// One of several demands that cannot all be met.
+struct ConflictMember {
+    std::string pointer;  ///< the field of the request
+    std::string title;
+    double off_mm;                   ///< at the best compromise
+    std::array<double, 3> position;  ///< where on the last, mm
+};
+
 struct Problem {
     int status = 500;
     std::string code;                               ///< stable, for programs
@@ -17,6 +25,7 @@ struct Problem {
     std::optional<std::string> pointer;             ///< the field of the request at fault
     std::optional<std::array<double, 3>> position;  ///< the place on the last, mm
     std::vector<std::array<std::int32_t, 3>> triangles{};  ///< at fault, by vertex ids of the file
+    std::vector<ConflictMember> conflict{};
 };
 
 /// application/problem+json.

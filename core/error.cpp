@@ -26,7 +26,7 @@ std::string_view name(ErrorCode code) {
     return "unknown";
 }
 
-Error& Error::at_option(const std::vector<std::string>& path) {
+std::string json_pointer(const std::vector<std::string>& path) {
     std::string pointer;
     for (const std::string& step : path) {
         pointer += '/';
@@ -39,7 +39,11 @@ Error& Error::at_option(const std::vector<std::string>& path) {
                 pointer += c;
         }
     }
-    option_ = std::move(pointer);
+    return pointer;
+}
+
+Error& Error::at_option(const std::vector<std::string>& path) {
+    option_ = json_pointer(path);
     return *this;
 }
 

@@ -33,6 +33,17 @@ enum class ErrorCode {
 /// The stable name of a code, as it stands in problem documents.
 [[nodiscard]] std::string_view name(ErrorCode code);
 
+/// One of several constraints that cannot all hold.
+struct ConflictMember {
+    std::string option;  ///< JSON pointer of its place in the options
+    std::string title;
+    double off_mm;  ///< at the best compromise
+    Vec3 position;  ///< on the last
+};
+
+/// A path of options as a JSON pointer (RFC 6901), such as "/curves/heel/vertices/12".
+[[nodiscard]] std::string json_pointer(const std::vector<std::string>& path);
+
 /// The one exception of core. `what()` says what was found, where, and what would mend it.
 class Error : public std::runtime_error {
 public:
@@ -52,17 +63,25 @@ public:
         return *this;
     }
 
+    Error& with_conflict(std::vector<ConflictMember> conflict) {
+        conflict_ = std::move(conflict);
+        return *this;
+    }
+
     [[nodiscard]] ErrorCode code() const { return code_; }
-    /// The path as a JSON pointer (RFC 6901), such as "/curves/heel/vertices/12".
+    /// As a JSON pointer.
     [[nodiscard]] const std::optional<std::string>& option() const { return option_; }
     [[nodiscard]] const std::optional<Vec3>& position() const { return position_; }
     [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
+    /// The smallest set found of constraints that fight.
+    [[nodiscard]] const std::vector<ConflictMember>& conflict() const { return conflict_; }
 
 private:
     ErrorCode code_;
     std::optional<std::string> option_;
     std::optional<Vec3> position_;
     std::vector<Triangle> triangles_;
+    std::vector<ConflictMember> conflict_;
 };
 
 /// Something the caller should know although the job succeeded.

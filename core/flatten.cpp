@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "core/constrain/check_constraints.h"
 #include "core/constrain/resolve_conflicts.h"
 #include "core/constrain/scale_to_locks.h"
 #include "core/measure/check_result.h"
@@ -27,22 +28,6 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-void check_curve_names(const std::vector<Constraint>& constraints, const Curves& curves) {
-    for (const Constraint& constraint : constraints) {
-        for (const std::string& name : {constraint.curve, constraint.with_curve}) {
-            const bool known =
-                name.empty() || std::any_of(curves.begin(), curves.end(),
-                                            [&](const Curve& c) { return c.name == name; });
-            if (known) continue;
-            auto option = constraint.option;
-            option.emplace_back(name == constraint.curve ? "curve" : "with_curve");
-            throw Error(ErrorCode::curve_invalid,
-                        constraint.title() + ": there is no curve '" + name + "'")
-                .at_option(option);
-        }
-    }
-}
-
 /// Curves without any edge in a region would be certified by nobody: say so.
 void warn_of_absent_curves(const Curves& curves, const std::vector<Region>& regions,
                            std::vector<Warning>& warnings) {
@@ -62,51 +47,69 @@ void warn_of_absent_curves(const Curves& curves, const std::vector<Region>& regi
 /// One region of the result, measured and found sound.
 FlatRegion certified(const Region& region, const Chart& chart, const FlattenOptions& options,
                      std::vector<Warning>& warnings) {
-    FlatRegion flat{region, chart, trace_outline(region, chart),
+    FlatRegion flat{region,
+                    chart,
+                    trace_outline(region, chart),
                     measure_distortion(region, chart.uv),
-                    measure_curves(region, chart.uv, options.constraints)};
-    check_result(region, chart.uv, options.method.name, flat.metrics, flat.curves, warnings);
+                    measure_curves(region, chart.uv, options.constraints),
+                    measure_stretch(region, chart.uv, options.material)};
+    check_result(region, chart.uv, options.method.name, flat.metrics, warnings);
     return flat;
 }
 
 /// The charts of regions that depend on each other, and how they were found.
 struct Refined {
-    std::vector<Chart> charts;
-    int iterations = 0;
+    Minimum minimum;
+    std::vector<std::size_t> relaxed;
     std::vector<Warning> warnings;
 };
 
+template <class T>
+void append(std::vector<T>& to, std::vector<T> from) {
+    std::move(from.begin(), from.end(), std::back_inserter(to));
+}
+
+/// Charts at the least of an energy.
+Refined minimised(const Domain& domain, const std::vector<Chart>& starts, const Demands& demands,
+                  const FlattenOptions& options, const Progress& progress) {
+    ConstrainedChart best = least_distortion(domain, starts, demands, options.threads, progress);
+    return {std::move(best.minimum), std::move(best.relaxed), std::move(best.warnings)};
+}
+
+Refined isometric(const Domain& domain, const std::vector<Chart>& starts,
+                  const FlattenOptions& options, const Progress& progress) {
+    std::vector<std::vector<double>> weights;
+    for (const Region* region : domain.regions)
+        weights.push_back(triangle_weights(*region, options.weights.zones));
+    const SymmetricDirichlet even;
+    const WeightedDirichlet uneven(options.weights.stretch, options.weights.compression);
+    const IsotropicEnergy& energy =
+        options.weights.even() ? static_cast<const IsotropicEnergy&>(even) : uneven;
+    return minimised(domain, starts,
+                     {options.constraints, energy, std::move(weights), options.on_conflict},
+                     options, progress);
+}
+
 /// The starts as they become the answer: at the least of their energy, or scaled as a whole.
-Refined refined(const Domain& domain, std::vector<Start> starts, const FlattenOptions& options,
-                std::size_t threads, const Progress& progress) {
-    Refined result;
-    for (Start& start : starts) {
-        result.charts.push_back(std::move(start.chart));
-        std::move(start.warnings.begin(), start.warnings.end(),
-                  std::back_inserter(result.warnings));
-    }
-    const auto minimise = [&](const IsotropicEnergy& energy,
-                              const std::vector<Constraint>& constraints) {
-        ConstrainedChart best = least_distortion(domain, result.charts, constraints, energy,
-                                                 options.on_conflict, threads, progress);
-        result.charts = std::move(best.minimum.charts);
-        result.iterations = best.minimum.iterations;
-        std::move(best.warnings.begin(), best.warnings.end(), std::back_inserter(result.warnings));
-    };
-    const auto scale_to_locks = [&] {
-        for (std::size_t r = 0; r < domain.regions.size(); ++r) {
-            result.charts[r] = scaled_to_locks(*domain.regions[r], std::move(result.charts[r]),
-                                               options.constraints);
-        }
-    };
+Refined refined(const Domain& domain, std::vector<Chart> charts, const FlattenOptions& options,
+                const Progress& progress) {
+    const std::vector<Constraint> none;
+    const bool mips = options.method.name == MethodName::mips;
     switch (options.method.name) {
-        case MethodName::isometric: minimise(SymmetricDirichlet(), options.constraints); break;
-        case MethodName::green_lagrange: minimise(GreenLagrange(), {}); break;
-        case MethodName::mips:
-            minimise(Mips(), {});
-            scale_to_locks();
-            break;
-        default: scale_to_locks();
+        case MethodName::isometric: return isometric(domain, charts, options, progress);
+        case MethodName::green_lagrange:
+            return minimised(domain, charts, {none, GreenLagrange()}, options, progress);
+        default: break;
+    }
+    Refined result;
+    if (mips) {
+        result = minimised(domain, charts, {none, Mips()}, options, progress);
+        charts = std::move(result.minimum.charts);
+    }
+    result.minimum.charts.clear();
+    for (std::size_t r = 0; r < domain.regions.size(); ++r) {
+        result.minimum.charts.push_back(
+            scaled_to_locks(*domain.regions[r], std::move(charts[r]), options.constraints));
     }
     return result;
 }
@@ -115,12 +118,17 @@ Refined refine(const std::vector<std::size_t>& group, const std::vector<Region>&
                std::vector<Start>& starts, const FlattenOptions& options,
                const Progress& progress) {
     std::vector<const Region*> parts;
-    std::vector<Start> own;
+    std::vector<Chart> charts;
+    std::vector<Warning> warnings;
     for (const std::size_t r : group) {
         parts.push_back(&regions[r]);
-        own.push_back(std::move(starts[r]));
+        charts.push_back(std::move(starts[r].chart));
+        append(warnings, std::move(starts[r].warnings));
     }
-    return refined(Domain(parts), std::move(own), options, options.threads, progress);
+    Refined result = refined(Domain(parts), std::move(charts), options, progress);
+    append(warnings, std::move(result.warnings));
+    result.warnings = std::move(warnings);
+    return result;
 }
 
 struct Fan {
@@ -149,36 +157,54 @@ Fan fan_of(const Region& region, const FlattenOptions& options, const Progress& 
     }
 }
 
-/// Regions with the same first place depend on each other; they are solved together.
+/// Regions that depend on each other, by their places in the list.
 struct Group {
     std::vector<std::size_t> regions;
     Refined refined;
 };
 
+void report_constraints(const std::vector<Region>& regions, const std::vector<Chart>& charts,
+                        const std::vector<std::size_t>& relaxed, const FlattenOptions& options,
+                        FlattenResult& result) {
+    result.constraints = measure_constraints(regions, charts, options.constraints);
+    for (ConstraintReport& report : result.constraints) {
+        report.relaxed =
+            std::find(relaxed.begin(), relaxed.end(), report.constraint) != relaxed.end();
+    }
+    if (options.method.name == MethodName::isometric)
+        check_constraints_kept(result.constraints, options.constraints, result.warnings);
+}
+
 /// The charts laid on the sheet, measured and found sound.
 void finish(const std::vector<Region>& regions, std::vector<Group> groups, std::vector<Fan> fans,
             const FlattenOptions& options, FlattenResult& result) {
     std::vector<Chart> charts(regions.size());
-    std::vector<int> iterations(regions.size());
+    std::vector<const Minimum*> minima(regions.size());
+    std::vector<std::size_t> relaxed;
     std::vector<Index> centres;
     for (Group& group : groups) {
         for (std::size_t i = 0; i < group.regions.size(); ++i) {
-            charts[group.regions[i]] = std::move(group.refined.charts[i]);
-            iterations[group.regions[i]] = group.refined.iterations;
+            charts[group.regions[i]] = std::move(group.refined.minimum.charts[i]);
+            minima[group.regions[i]] = &group.refined.minimum;
         }
-        std::move(group.refined.warnings.begin(), group.refined.warnings.end(),
-                  std::back_inserter(result.warnings));
+        append(relaxed, std::move(group.refined.relaxed));
+        append(result.warnings, std::move(group.refined.warnings));
     }
     for (Fan& fan : fans) {
         centres.push_back(fan.fan ? fan.fan->centre : -1);
-        std::move(fan.warnings.begin(), fan.warnings.end(), std::back_inserter(result.warnings));
+        append(result.warnings, std::move(fan.warnings));
     }
-    orient_charts(regions, centres, charts);
+    orient_charts(regions, centres, options.constraints, charts);
     result.sheet = arrange_pair(regions, charts, options.layout_gap_mm);
     result.pairs = measure_pairs(regions, charts);
+    report_constraints(regions, charts, relaxed, options, result);
     for (std::size_t r = 0; r < regions.size(); ++r) {
         FlatRegion flat = certified(regions[r], charts[r], options, result.warnings);
-        flat.iterations = iterations[r];
+        flat.iterations = minima[r]->iterations;
+        if (is_energy(options.method.name)) {
+            flat.energy = minima[r]->energy;
+            flat.projected_gradient = minima[r]->projected_gradient;
+        }
         if (fans[r].fan) flat.fan = on_base_line(regions[r], charts[r], std::move(*fans[r].fan));
         result.regions.push_back(std::move(flat));
     }
@@ -189,6 +215,7 @@ void finish(const std::vector<Region>& regions, std::vector<Group> groups, std::
 FlattenResult flatten(std::string_view model, const FlattenOptions& options, Progress& progress) {
     FlattenResult result;
     result.method = options.method.name;
+    result.asked = options.constraints;
     result.draw_fan = options.draw_fan;
     Stopwatch total, watch;
 
@@ -202,8 +229,8 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& options, Pro
 
     progress.reach(Stage::cut, 0.2);
     const Curves curves = locate_curves(surface, options.curves);
-    check_curve_names(options.constraints, curves);
     const auto regions = cut_into_regions(surface, curves, options.cut);
+    check_constraints(options.constraints, curves, regions);
     warn_of_absent_curves(curves, regions, result.warnings);
     result.timing.cut_ms = watch.lap();
 

@@ -11,6 +11,7 @@
 #include "core/locate/curves.h"
 #include "core/measure/report.h"
 #include "core/outline/outline.h"
+#include "core/parameterize/distortion_weights.h"
 #include "core/parameterize/method.h"
 #include "core/progress.h"
 #include "core/weld/weld.h"
@@ -24,6 +25,8 @@ struct FlattenOptions {
     CutOptions cut;
     std::vector<Constraint> constraints;
     OnConflict on_conflict = OnConflict::fail;
+    DistortionWeights weights;               ///< of `isometric`
+    std::optional<MaterialLimits> material;  ///< judged, not enforced
     MethodOptions method;
     bool draw_fan = false;  ///< the geodesic fan in the drawing
     /// Up to how many triangles of a region its fan is computed, and if it is to be drawn.
@@ -38,7 +41,10 @@ struct FlatRegion {
     Outline outline;
     Metrics metrics;
     std::vector<CurveReport> curves;
+    StretchReport stretch;
     int iterations = 0;  ///< Newton steps; 0 for methods without any
+    /// Of methods that minimise an energy: its mean density, and how flat it is there (`Minimum`).
+    std::optional<double> energy{}, projected_gradient{};
     std::optional<GeodesicFan> fan{};
 };
 
@@ -50,6 +56,8 @@ struct FlattenResult {
     MethodName method = MethodName::isometric;
     std::vector<FlatRegion> regions;
     std::vector<PairReport> pairs;
+    std::vector<Constraint> asked;
+    std::vector<ConstraintReport> constraints;  ///< of what was asked
     Sheet sheet;
     std::vector<Warning> warnings;
     Timing timing;

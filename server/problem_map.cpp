@@ -35,6 +35,11 @@ api::Problem problem_of(const Error& error) {
     problem.pointer = error.option();
     if (const auto& p = error.position()) problem.position = {p->x(), p->y(), p->z()};
     problem.triangles = error.triangles();
+    for (const ConflictMember& member : error.conflict()) {
+        const Vec3& p = member.position;
+        problem.conflict.push_back(
+            {member.option, member.title, member.off_mm, {p.x(), p.y(), p.z()}});
+    }
     return problem;
 }
 

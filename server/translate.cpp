@@ -1,5 +1,7 @@
 #include "server/translate.h"
 
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "server/version.h"
@@ -71,6 +73,49 @@ MethodOptions method_of(const api::MethodRequest& request) {
     return method;
 }
 
+ConstraintKind kind_of(api::ConstraintForm form) {
+    switch (form) {
+        case api::ConstraintForm::lock: return ConstraintKind::lock;
+        case api::ConstraintForm::range: return ConstraintKind::range;
+        case api::ConstraintForm::match: return ConstraintKind::match;
+        case api::ConstraintForm::straight: return ConstraintKind::straight;
+        case api::ConstraintForm::total_area: return ConstraintKind::total_area;
+        case api::ConstraintForm::pin: return ConstraintKind::pin;
+    }
+    return ConstraintKind::lock;
+}
+
+Constraint constraint_of(const api::ConstraintRequest& wire) {
+    Constraint constraint;
+    constraint.kind = kind_of(wire.form);
+    constraint.curve = wire.curve;
+    constraint.keep = wire.keep == api::KeepLength::edges ? Keep::edges : Keep::total;
+    // An area with neither bound is kept exactly; a range has at least one.
+    const bool exact = !wire.min_percent && !wire.max_percent;
+    constexpr double unbounded = std::numeric_limits<double>::infinity();
+    constraint.min_percent = exact ? 0.0 : wire.min_percent.value_or(-unbounded);
+    constraint.max_percent = exact ? 0.0 : wire.max_percent.value_or(unbounded);
+    constraint.region = wire.region;
+    constraint.with_curve = wire.with_curve;
+    constraint.with_region = wire.with_region;
+    constraint.vertex = wire.vertex;
+    constraint.place = {wire.at_mm[0], wire.at_mm[1]};
+    constraint.priority = wire.priority;
+    constraint.option = wire.path;
+    return constraint;
+}
+
+DistortionWeights weights_of(const api::WeightsRequest& wire) {
+    DistortionWeights weights;
+    weights.stretch = wire.stretch;
+    weights.compression = wire.compression;
+    for (const auto& zone : wire.zones) {
+        weights.zones.push_back(
+            {zone.curve, zone.vertex, zone.vertices, zone.within_mm, zone.weight});
+    }
+    return weights;
+}
+
 std::string word(MethodName method) {
     switch (method) {
         case MethodName::tutte: return "tutte";
@@ -133,6 +178,51 @@ api::FanResult to_wire(const GeodesicFan& fan, const Region& region) {
     return wire;
 }
 
+api::Place to_wire(const Vec3& p) {
+    return {p.x(), p.y(), p.z()};
+}
+
+api::PercentilesResult to_wire(const StretchPercentiles& p) {
+    return {p.p01, p.p05, p.p50, p.p95, p.p99};
+}
+
+api::StretchResult to_wire(const StretchReport& report) {
+    api::StretchResult wire{to_wire(report.larger),
+                            to_wire(report.smaller),
+                            report.most_stretched_percent,
+                            report.most_compressed_percent,
+                            {},
+                            {},
+                            {}};
+    for (const auto& w : report.worst)
+        wire.worst.push_back({to_wire(w.position), w.larger_percent, w.smaller_percent});
+    if (report.material_verdict) {
+        wire.beyond_material = report.beyond_material;
+        wire.material_verdict = word(*report.material_verdict);
+    }
+    return wire;
+}
+
+std::optional<double> finite(double value) {
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+api::ConstraintResult to_wire(const ConstraintReport& report, const Constraint& constraint) {
+    return {std::string(name(constraint.kind)),
+            constraint.title(),
+            json_pointer(constraint.option),
+            report.region,
+            constraint.kind == ConstraintKind::total_area ? "mm2" : "mm",
+            finite(report.asked_min),
+            finite(report.asked_max),
+            report.reached,
+            report.residual_mm,
+            to_wire(report.position),
+            report.kept      ? "pass"
+            : report.relaxed ? "relaxed"
+                             : "fail"};
+}
+
 api::RegionResult to_wire(const FlatRegion& flat, MethodName method) {
     api::RegionResult region;
     region.name = flat.region.name;
@@ -148,7 +238,10 @@ api::RegionResult to_wire(const FlatRegion& flat, MethodName method) {
                                  c.worst_edge_error_mm, word(c.verdict)});
     }
     region.metrics = to_wire(flat.metrics);
+    region.stretch = to_wire(flat.stretch);
     region.iterations = flat.iterations;
+    region.energy = flat.energy;
+    region.projected_gradient = flat.projected_gradient;
     if (flat.fan) region.fan = to_wire(*flat.fan, flat.region);
     return region;
 }
@@ -171,12 +264,13 @@ FlattenOptions to_options(const api::FlattenRequest& request) {
         }
         options.cut.regions.push_back(choice);
     }
-    for (std::size_t i = 0; i < request.locks.size(); ++i) {
-        const auto& wire = request.locks[i];
-        Constraint constraint =
-            lock(wire.curve, wire.keep == api::KeepLength::edges ? Keep::edges : Keep::total);
-        constraint.option = {"locks", std::to_string(i)};
-        options.constraints.push_back(std::move(constraint));
+    for (const auto& wire : request.constraints) options.constraints.push_back(constraint_of(wire));
+    options.on_conflict =
+        request.on_conflict == api::Conflict::relax ? OnConflict::relax : OnConflict::fail;
+    options.weights = weights_of(request.weights);
+    if (request.material) {
+        options.material = {request.material->stretch_max_percent,
+                            request.material->compress_max_percent};
     }
     options.method = method_of(request.method);
     options.draw_fan = request.draw_fan;
@@ -189,6 +283,8 @@ api::FlattenResult to_wire(const FlattenResult& result) {
     for (const auto& p : result.pairs) {
         wire.pairs.push_back({p.curve, p.a, p.b, p.difference_mm, word(p.verdict)});
     }
+    for (const auto& c : result.constraints)
+        wire.constraints.push_back(to_wire(c, result.asked[c.constraint]));
     wire.width_mm = result.sheet.width;
     wire.height_mm = result.sheet.height;
     for (std::size_t r = 0; r < result.regions.size(); ++r) {
@@ -200,8 +296,7 @@ api::FlattenResult to_wire(const FlattenResult& result) {
     }
     for (const auto& w : result.warnings) {
         wire.warnings.push_back({w.code, w.detail, std::nullopt});
-        if (w.position)
-            wire.warnings.back().position = {w.position->x(), w.position->y(), w.position->z()};
+        if (w.position) wire.warnings.back().position = to_wire(*w.position);
     }
     const Timing& t = result.timing;
     wire.load_ms = t.load_ms;

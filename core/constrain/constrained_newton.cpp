@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/constrain/optimality_system.h"
+#include "core/constrain/pins.h"
 #include "core/numerics/tolerances.h"
 
 namespace lastflat {
@@ -240,11 +241,28 @@ VectorXd scaled_start(const Domain& domain, const std::vector<Chart>& starts) {
     return x;
 }
 
+/// A rigid motion costs nothing, so the pins need not pull the charts to their places.
+VectorXd moved_to_pins(const Problem& problem, const VectorXd& x) {
+    std::vector<Chart> charts = problem.domain.charts(x);
+    for (std::size_t r = 0; r < charts.size(); ++r) {
+        const Index first = problem.domain.first[r], end = problem.domain.first[r + 1];
+        std::vector<PinnedVertex> pins;
+        for (const ConstraintRow& row : problem.rows) {
+            const Term& term = row.terms.front();
+            if (term.kind != TermKind::coordinate || term.a < first || term.a >= end) continue;
+            if (term.b == 0) pins.push_back({term.a - first, Vec2(row.most, 0.0)});
+            if (term.b == 1) pins.back().place.y() = row.most;
+        }
+        move_to_pins(pins, charts[r].uv);
+    }
+    return problem.domain.coordinates(charts);
+}
+
 }  // namespace
 
 Minimum minimise_distortion(const Problem& problem, const std::vector<Chart>& starts,
                             const Progress& progress) {
-    Distortion distortion(problem.domain, problem.energy);
+    Distortion distortion(problem.domain, problem.energy, problem.weights);
     VectorXd x = scaled_start(problem.domain, starts);
     Minimum result;
     if (distortion.value(x) > near_isometry * distortion.total_area()) {
@@ -254,6 +272,7 @@ Minimum minimise_distortion(const Problem& problem, const std::vector<Chart>& st
         approach.run(x, approach_decrease, near_isometry);
         approach.report(result);
     }
+    x = moved_to_pins(problem, x);
     ConstrainedNewton newton(problem, distortion, progress);
     result.converged = newton.run(x, 0.0, 0.0);
     newton.report(result);

@@ -21,24 +21,23 @@ std::string amount(double value, const char* unit) {
 
 class Resolver {
 public:
-    Resolver(const Domain& domain, const std::vector<Chart>& starts,
-             const std::vector<Constraint>& constraints, const IsotropicEnergy& energy,
+    Resolver(const Domain& domain, const std::vector<Chart>& starts, const Demands& demands,
              std::size_t threads, const Progress& progress)
         : domain_(domain),
           starts_(starts),
-          constraints_(constraints),
-          energy_(energy),
+          demands_(demands),
+          constraints_(demands.constraints),
           threads_(threads),
           progress_(progress),
-          rows_(constraint_rows(domain, constraints)),
-          role_(constraints.size(), Role::kept) {}
+          rows_(constraint_rows(domain, constraints_)),
+          role_(constraints_.size(), Role::kept) {}
 
-    ConstrainedChart run(OnConflict on_conflict) {
+    ConstrainedChart run() {
         ConstrainedChart result;
         result.minimum = solve(role_);
         while (!kept(result.minimum)) {
             const auto fighting = smallest_conflict();
-            if (on_conflict == OnConflict::fail) fail(fighting);
+            if (demands_.on_conflict == OnConflict::fail) fail(fighting);
             result.relaxed.push_back(yield(fighting));
             result.minimum = solve(role_);
         }
@@ -57,8 +56,9 @@ private:
             rows.push_back(row);
             compliance.push_back(role == Role::soft ? compromise : 0.0);
         }
-        return minimise_distortion({domain_, rows, energy_, compliance, threads_}, starts_,
-                                   progress_);
+        return minimise_distortion(
+            {domain_, rows, demands_.energy, compliance, threads_, demands_.weights}, starts_,
+            progress_);
     }
 
     [[nodiscard]] static bool kept(const Minimum& minimum) {
@@ -102,41 +102,45 @@ private:
         std::vector<Role> roles(constraints_.size(), Role::absent);
         for (const std::size_t c : fighting) roles[c] = Role::soft;
         const Minimum best = solve(roles);
+        std::vector<ConflictMember> members;
+        for (const std::size_t c : fighting) members.push_back(member(c, roles, best));
         std::string text;
-        std::optional<Vec3> first_place;
-        for (const std::size_t c : fighting) {
-            double worst = 0.0;
-            Index vertex = -1;
-            Eigen::Index k = 0;
-            for (const ConstraintRow& row : rows_) {
-                if (roles[row.constraint] == Role::absent) continue;
-                const double error = best.errors[k++];
-                if (row.constraint != c || std::abs(error) <= std::abs(worst)) continue;
-                worst = error;
-                vertex = row.vertex;
-            }
-            text +=
-                (text.empty() ? "" : ", ") + constraints_[c].title() + " (" + amount(worst, " mm");
-            if (vertex >= 0) {
-                text += " at " + place(domain_.position(vertex));
-                if (!first_place) first_place = domain_.position(vertex);
-            }
-            text += ")";
+        for (const ConflictMember& m : members) {
+            text += (text.empty() ? "" : ", ") + m.title + " (" + amount(m.off_mm, " mm") + " at " +
+                    place(m.position) + ")";
         }
-        Error error(ErrorCode::constraints_infeasible,
+        throw Error(ErrorCode::constraints_infeasible,
                     "region '" + domain_.regions.front()->name +
                         "': these constraints cannot all hold; at the best compromise they are off "
                         "by: " +
-                        text + "; leave one out or let it give way (\"on_conflict\": \"relax\")");
-        if (first_place) error.at_position(*first_place);
-        if (!fighting.empty()) error.at_option(constraints_[fighting.front()].option);
-        throw error;
+                        text + "; leave one out or let it give way (\"on_conflict\": \"relax\")")
+            .at_option(constraints_[fighting.front()].option)
+            .at_position(members.front().position)
+            .with_conflict(std::move(members));
+    }
+
+    /// How far a constraint is off at the best compromise, and where most.
+    [[nodiscard]] ConflictMember member(std::size_t c, const std::vector<Role>& roles,
+                                        const Minimum& best) const {
+        ConflictMember result{json_pointer(constraints_[c].option), constraints_[c].title(), 0.0,
+                              Vec3::Zero()};
+        Eigen::Index k = 0;
+        double worst = -1.0;
+        for (const ConstraintRow& row : rows_) {
+            if (roles[row.constraint] == Role::absent) continue;
+            const double error = best.errors[k++];
+            if (row.constraint != c || std::abs(error) <= worst) continue;
+            worst = std::abs(error);
+            result.off_mm = error;
+            result.position = domain_.position(row.vertex);
+        }
+        return result;
     }
 
     const Domain& domain_;
     const std::vector<Chart>& starts_;
+    const Demands& demands_;
     const std::vector<Constraint>& constraints_;
-    const IsotropicEnergy& energy_;
     std::size_t threads_;
     const Progress& progress_;
     const std::vector<ConstraintRow> rows_;
@@ -154,11 +158,9 @@ Warning not_converged(const Domain& domain, const Minimum& minimum) {
 }  // namespace
 
 ConstrainedChart least_distortion(const Domain& domain, const std::vector<Chart>& starts,
-                                  const std::vector<Constraint>& constraints,
-                                  const IsotropicEnergy& energy, OnConflict on_conflict,
-                                  std::size_t threads, const Progress& progress) {
-    ConstrainedChart result =
-        Resolver(domain, starts, constraints, energy, threads, progress).run(on_conflict);
+                                  const Demands& demands, std::size_t threads,
+                                  const Progress& progress) {
+    ConstrainedChart result = Resolver(domain, starts, demands, threads, progress).run();
     if (!result.minimum.converged) result.warnings.push_back(not_converged(domain, result.minimum));
     return result;
 }

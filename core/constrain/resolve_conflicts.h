@@ -16,6 +16,14 @@ struct ConstrainedChart {
     std::vector<Warning> warnings;
 };
 
+/// What is asked of a domain.
+struct Demands {
+    const std::vector<Constraint>& constraints;
+    const IsotropicEnergy& energy;
+    std::vector<std::vector<double>> weights{};  ///< see `Problem`
+    OnConflict on_conflict = OnConflict::fail;
+};
+
 /// Least distortion of a domain under constraints.
 ///
 /// Out:    every constraint kept to `tolerance::locked_length` but the relaxed ones, of which the
@@ -26,9 +34,7 @@ struct ConstrainedChart {
 ///         Others as `minimise_distortion`.
 [[nodiscard]] ConstrainedChart least_distortion(const Domain& domain,
                                                 const std::vector<Chart>& starts,
-                                                const std::vector<Constraint>& constraints,
-                                                const IsotropicEnergy& energy,
-                                                OnConflict on_conflict, std::size_t threads,
+                                                const Demands& demands, std::size_t threads,
                                                 const Progress& progress);
 
 }  // namespace lastflat

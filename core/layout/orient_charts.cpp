@@ -125,10 +125,12 @@ Vec3 long_axis(const std::vector<Region>& regions) {
 }
 
 void orient_charts(const std::vector<Region>& regions, const std::vector<Index>& centres,
-                   std::vector<Chart>& charts) {
+                   const std::vector<Constraint>& constraints, std::vector<Chart>& charts) {
     const Vec3 axis = long_axis(regions);
     for (std::size_t r = 0; r < regions.size(); ++r) {
         Points2& uv = charts[r].uv;
+        const auto pins = pinned_vertices(regions[r], constraints);
+        if (pins.size() > 1) continue;
         Vec2 base = direction_of(axis, patches(regions[r], charts[r]));
         if (const auto line = named_base_line(regions[r])) {
             base =
@@ -141,7 +143,9 @@ void orient_charts(const std::vector<Region>& regions, const std::vector<Index>&
             p = {along.dot(p), along.x() * p.y() - along.y() * p.x()};
             low = low.cwiseMin(p);
         }
-        const Vec2 origin = centres[r] < 0 ? low : uv[static_cast<std::size_t>(centres[r])];
+        Vec2 origin = centres[r] < 0 ? low : uv[static_cast<std::size_t>(centres[r])];
+        if (!pins.empty())
+            origin = uv[static_cast<std::size_t>(pins.front().vertex)] - pins.front().place;
         for (Vec2& p : uv) p -= origin;
     }
 }

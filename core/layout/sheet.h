@@ -1,6 +1,7 @@
 // Where the flat pieces lie on the sheet.
 #pragma once
 
+#include "core/constrain/pins.h"
 #include "core/geodesic/geodesic_fan.h"
 #include "core/parameterize/chart.h"
 
@@ -28,10 +29,12 @@ struct Sheet {
 /// stretch of border between them; where a region lacks them, the long axis of all regions in space
 /// takes the base line's place.
 ///
+/// A chart with one pinned vertex is turned and then has it in its place; one with more stays.
+///
 /// In:  per region the centre of its fan, or -1.
 /// Out: charts that do not depend on how the last lay in space.
 void orient_charts(const std::vector<Region>& regions, const std::vector<Index>& centres,
-                   std::vector<Chart>& charts);
+                   const std::vector<Constraint>& constraints, std::vector<Chart>& charts);
 
 /// The fan with its angles counted from the direction in which the oriented chart's +x leaves the
 /// centre on the surface, in [-pi, pi]: of an isometry, the chart's own polar coordinates.

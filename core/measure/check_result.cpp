@@ -36,8 +36,7 @@ void check_crossings(const Region& region, const Points2& uv, MethodName method,
 }  // namespace
 
 void check_result(const Region& region, const Points2& uv, MethodName method,
-                  const Metrics& metrics, const std::vector<CurveReport>& curves,
-                  std::vector<Warning>& warnings) {
+                  const Metrics& metrics, std::vector<Warning>& warnings) {
     if (metrics.flipped_triangles > 0) {
         const auto flipped = flipped_triangles(region, uv);
         throw Error(ErrorCode::method_failed,
@@ -51,13 +50,24 @@ void check_result(const Region& region, const Points2& uv, MethodName method,
             .at_triangles(source_triangles(region, flipped));
     }
     if (metrics.border_crossings > 0) check_crossings(region, uv, method, warnings);
-    if (method != MethodName::isometric) return;
-    for (const CurveReport& curve : curves) {
-        if (!curve.locked || curve.verdict == Verdict::pass) continue;
-        throw Error(ErrorCode::constraints_infeasible,
-                    "region '" + region.name + "': locked curve '" + curve.name + "' is off by " +
-                        std::to_string(curve.worst_edge_error_mm) + " mm on one edge")
-            .at_option({"locks"});
+}
+
+void check_constraints_kept(const std::vector<ConstraintReport>& reports,
+                            const std::vector<Constraint>& constraints,
+                            std::vector<Warning>& warnings) {
+    for (const ConstraintReport& report : reports) {
+        if (report.kept) continue;
+        const Constraint& constraint = constraints[report.constraint];
+        const std::string what = "region '" + report.region + "': " + constraint.title() +
+                                 " is off by " + std::to_string(report.residual_mm) + " mm at " +
+                                 place(report.position);
+        if (!report.relaxed) {
+            throw Error(ErrorCode::constraints_infeasible, what)
+                .at_option(constraint.option)
+                .at_position(report.position);
+        }
+        warnings.push_back(
+            {"constraint_relaxed", what + ", because others are more important", report.position});
     }
 }
 

@@ -8,12 +8,15 @@
 namespace lastflat {
 
 /// Throws: Error{method_failed} if triangles are flipped; with `isometric` also
-/// Error{border_crosses}
-///         and Error{constraints_infeasible} if a lock is not kept. Other methods promise neither:
-///         a border that crosses itself becomes a warning, open locks stand in the curves'
-///         verdicts.
+///         Error{border_crosses}. Other methods do not promise that: a border that crosses itself
+///         becomes a warning.
 void check_result(const Region& region, const Points2& uv, MethodName method,
-                  const Metrics& metrics, const std::vector<CurveReport>& curves,
-                  std::vector<Warning>& warnings);
+                  const Metrics& metrics, std::vector<Warning>& warnings);
+
+/// Throws: Error{constraints_infeasible} if a constraint is not kept; one that was relaxed becomes
+///         the warning `constraint_relaxed`.
+void check_constraints_kept(const std::vector<ConstraintReport>& reports,
+                            const std::vector<Constraint>& constraints,
+                            std::vector<Warning>& warnings);
 
 }  // namespace lastflat

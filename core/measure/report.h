@@ -1,10 +1,12 @@
 // What the flattening did to the surface, recomputed from the result alone.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/constrain/constraint.h"
+#include "core/constrain/pins.h"
 #include "core/parameterize/chart.h"
 
 namespace lastflat {
@@ -42,12 +44,57 @@ struct PairReport {
     Verdict verdict;
 };
 
+/// What one constraint came to, in one region; a match names the region of its first side.
+struct ConstraintReport {
+    std::size_t constraint;  ///< its place in the list
+    std::string region;
+    double asked_min, asked_max;  ///< mm, of an area mm^2; infinite: no bound
+    double reached;
+    double residual_mm;  ///< the worst of its parts, with its sign; of an area over its square root
+    Vec3 position;       ///< of the worst part, on the last
+    bool kept;           ///< to `tolerance::locked_length`
+    bool relaxed = false;  ///< it gave way to others
+};
+
+/// Percent; so much of the area is below.
+struct StretchPercentiles {
+    double p01, p05, p50, p95, p99;
+};
+
+struct WorstPlace {
+    Vec3 position;  ///< on the last, mm
+    double larger_percent, smaller_percent;
+};
+
+/// What the leather will bear.
+struct MaterialLimits {
+    double stretch_max_percent, compress_max_percent;
+};
+
+/// What happens to the leather when the flat piece is lasted: along its two principal directions it
+/// is stretched (above 0) where the pattern is smaller than the last, compressed where larger.
+struct StretchReport {
+    StretchPercentiles larger, smaller;
+    double most_stretched_percent, most_compressed_percent;
+    std::vector<WorstPlace> worst;  ///< ten at most, apart from each other, the worst first
+    double beyond_material = 0.0;   ///< share of the area outside the limits
+    std::optional<Verdict> material_verdict{};  ///< pass: none; warn: up to 1 % of the area
+};
+
 /// Paper: stretch [sander-2001]; the rest reading of [kim-kim], section 4.
 [[nodiscard]] Metrics measure_distortion(const Region& region, const Points2& uv);
 
 /// One entry per run of a named curve.
 [[nodiscard]] std::vector<CurveReport> measure_curves(const Region& region, const Points2& uv,
                                                       const std::vector<Constraint>& constraints);
+
+/// One entry per constraint and run or region that it binds.
+[[nodiscard]] std::vector<ConstraintReport> measure_constraints(
+    const std::vector<Region>& regions, const std::vector<Chart>& charts,
+    const std::vector<Constraint>& constraints);
+
+[[nodiscard]] StretchReport measure_stretch(const Region& region, const Points2& uv,
+                                            const std::optional<MaterialLimits>& material);
 
 /// Every two runs along the same vertices of the last.
 [[nodiscard]] std::vector<PairReport> measure_pairs(const std::vector<Region>& regions,

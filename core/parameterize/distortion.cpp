@@ -123,14 +123,18 @@ Index slot_of(const SparseMatrix& matrix, Index row, Index column) {
 
 }  // namespace
 
-Distortion::Distortion(const Domain& domain, const IsotropicEnergy& energy) : energy_(energy) {
+Distortion::Distortion(const Domain& domain, const IsotropicEnergy& energy,
+                       const std::vector<std::vector<double>>& weights)
+    : energy_(energy) {
     for (std::size_t r = 0; r < domain.regions.size(); ++r) {
         const Region& region = *domain.regions[r];
         elements_.reserve(elements_.size() + region.triangles.size());
-        for (Triangle t : region.triangles) {
+        for (std::size_t i = 0; i < region.triangles.size(); ++i) {
+            Triangle t = region.triangles[i];
+            const double weight = weights.empty() ? 1.0 : weights[r][i];
             const Eigen::Matrix2d edges = rest_edges(region, t);
             for (Index& v : t) v += domain.first[r];
-            elements_.push_back({t, edges.inverse(), 0.5 * edges.determinant()});
+            elements_.push_back({t, edges.inverse(), weight * 0.5 * edges.determinant()});
             total_area_ += elements_.back().area;
         }
     }

@@ -15,9 +15,11 @@ enum class HessianKind {
 /// Sum over the triangles of surface area times energy density, mm^2.
 class Distortion {
 public:
-    /// `energy` must outlive the distortion.
-    Distortion(const Domain& domain, const IsotropicEnergy& energy);
+    /// `weights`: per region and triangle; none: all one. `energy` must outlive the distortion.
+    Distortion(const Domain& domain, const IsotropicEnergy& energy,
+               const std::vector<std::vector<double>>& weights = {});
 
+    /// Weights counted: an isometry has this value.
     [[nodiscard]] double total_area() const { return total_area_; }
     [[nodiscard]] bool scale_free() const { return energy_.scale_free(); }
 
@@ -43,7 +45,7 @@ private:
     struct Element {
         Triangle vertices;
         Eigen::Matrix2d rest_inverse;  ///< of [p1 - p0, p2 - p0] in the triangle's plane
-        double area;
+        double area;                   ///< times the weight
     };
     [[nodiscard]] static Eigen::Matrix2d gradient_of(const Element& element,
                                                      const Eigen::VectorXd& x);

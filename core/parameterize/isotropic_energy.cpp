@@ -4,6 +4,8 @@
 // "Interactive Texture Mapping", SIGGRAPH 1993.
 #include "core/parameterize/isotropic_energy.h"
 
+#include <cmath>
+
 namespace lastflat {
 
 double SymmetricDirichlet::value(double s1, double s2) const {
@@ -23,6 +25,36 @@ EnergyDerivatives SymmetricDirichlet::derivatives(double s1, double s2) const {
     // The differences are divided out, so that s1 = s2 needs no limit.
     e.twist = 0.5 * (1.0 - (s1 * s1 - s1 * s2 + s2 * s2) * product);
     e.flip = 0.5 * (1.0 + (s1 * s1 + s1 * s2 + s2 * s2) * product);
+    return e;
+}
+
+/// w f with f = (s^2 + s^-2 - 2) / 4, which is zero at s = 1, and w between the two weights.
+WeightedDirichlet::Density WeightedDirichlet::density(double s) const {
+    constexpr double width = 2e-3;
+    const double i = 1.0 / s;
+    const double f = 0.25 * (s - i) * (s - i);
+    const double f1 = 0.5 * (s - i * i * i), f2 = 0.5 * (1.0 + 3.0 * i * i * i * i);
+    const double t = std::tanh((s - 1.0) / width), slope = (1.0 - t * t) / width;
+    const double w = mean_ + half_ * t, w1 = half_ * slope, w2 = -2.0 * half_ * t * slope / width;
+    return {w * f, w1 * f + w * f1, w2 * f + 2.0 * w1 * f1 + w * f2};
+}
+
+double WeightedDirichlet::value(double s1, double s2) const {
+    return 1.0 + density(s1).value + density(s2).value;
+}
+
+EnergyDerivatives WeightedDirichlet::derivatives(double s1, double s2) const {
+    const Density a = density(s1), b = density(s2);
+    EnergyDerivatives e{};
+    e.value = 1.0 + a.value + b.value;
+    e.d1 = a.first;
+    e.d2 = b.first;
+    e.d11 = a.second;
+    e.d12 = 0.0;
+    e.d22 = b.second;
+    e.twist = (e.d1 + e.d2) / (s1 + s2);
+    // Nearer than this the quotient would be round-off, and is its limit to ten digits.
+    e.flip = s1 - s2 > 1e-6 ? (e.d1 - e.d2) / (s1 - s2) : 0.5 * (e.d11 + e.d22);
     return e;
 }
 

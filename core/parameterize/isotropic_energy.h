@@ -34,6 +34,25 @@ public:
     [[nodiscard]] EnergyDerivatives derivatives(double s1, double s2) const override;
 };
 
+/// The symmetric Dirichlet energy with two weights: where the map shrinks (s < 1) the leather will
+/// be stretched on the last, where it grows (s > 1) compressed. Between them, within some tenths of
+/// a per cent of s = 1, the weight changes smoothly, so that there is a Hessian everywhere.
+class WeightedDirichlet final : public IsotropicEnergy {
+public:
+    WeightedDirichlet(double stretch, double compression)
+        : mean_(0.5 * (stretch + compression)), half_(0.5 * (compression - stretch)) {}
+    [[nodiscard]] double value(double s1, double s2) const override;
+    [[nodiscard]] EnergyDerivatives derivatives(double s1, double s2) const override;
+
+private:
+    struct Density {
+        double value, first, second;
+    };
+    [[nodiscard]] Density density(double s) const;
+
+    double mean_, half_;
+};
+
 /// (s1 / s2 + s2 / s1) / 2: one for a similarity, infinite for a collapse.
 ///
 /// Paper: [hormann-2000], section 3; here divided by two and weighed by the surface's area, so that

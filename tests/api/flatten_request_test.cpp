@@ -63,8 +63,8 @@ TEST_SUITE("api/flatten_request") {
         CHECK(request.regions[0].name == "lateral");
         CHECK(request.regions[0].contains->vertex == 5200);
         CHECK(request.regions[1].name == "medial");
-        CHECK(request.locks[0].keep == KeepLength::edges);
-        CHECK(request.locks[1].keep == KeepLength::total);
+        CHECK(request.constraints[0].keep == KeepLength::edges);
+        CHECK(request.constraints[1].keep == KeepLength::total);
         CHECK(request.method.angles == Angles::averaged_conformal);
         CHECK(request.tag == "order-4711");
     }
@@ -112,7 +112,8 @@ TEST_SUITE("api/flatten_request") {
     }
 
     TEST_CASE("an error lists what there is instead") {
-        CHECK(detail_of(R"({"seem": 1})").find("known here: curves, cuts, draw, layout") !=
+        CHECK(detail_of(R"({"seem": 1})")
+                  .find("known here: constraints, curves, cuts, draw, layout") !=
               std::string::npos);
         CHECK(detail_of(R"({"units": "feet"})") == "must be one of: mm, cm, m, in");
     }

@@ -13,8 +13,8 @@ ConstrainedChart resolved(const Region& region, const std::vector<Constraint>& c
                           OnConflict on_conflict = OnConflict::fail) {
     const Domain domain({&region});
     const Chart start = flatten_fixed_border(region, mean_value_weights, circle_border(region));
-    return least_distortion(domain, {start}, constraints, SymmetricDirichlet(), on_conflict, 1,
-                            Progress());
+    const SymmetricDirichlet energy;
+    return least_distortion(domain, {start}, {constraints, energy, {}, on_conflict}, 1, Progress());
 }
 
 }  // namespace

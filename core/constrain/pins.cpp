@@ -1,0 +1,46 @@
+// Based on: Umeyama, "Least-Squares Estimation of Transformation Parameters Between Two Point
+// Patterns", IEEE PAMI 1991.
+#include "core/constrain/pins.h"
+
+#include "core/numerics/polygon.h"
+
+namespace lastflat {
+
+std::vector<PinnedVertex> pinned_vertices(const Region& region,
+                                          const std::vector<Constraint>& constraints) {
+    std::vector<PinnedVertex> pins;
+    for (const Constraint& constraint : constraints) {
+        if (constraint.kind != ConstraintKind::pin) continue;
+        if (!constraint.region.empty() && constraint.region != region.name) continue;
+        for (std::size_t v = 0; v < region.source_vertices.size(); ++v) {
+            if (region.source_vertices[v] == constraint.vertex)
+                pins.push_back({static_cast<Index>(v), constraint.place});
+        }
+    }
+    return pins;
+}
+
+void move_to_pins(const std::vector<PinnedVertex>& pins, Points2& uv) {
+    if (pins.empty()) return;
+    Vec2 from = Vec2::Zero(), to = Vec2::Zero();
+    for (const PinnedVertex& pin : pins) {
+        from += uv[static_cast<std::size_t>(pin.vertex)];
+        to += pin.place;
+    }
+    from /= static_cast<double>(pins.size());
+    to /= static_cast<double>(pins.size());
+    double cosine = 0.0, sine = 0.0;
+    for (const PinnedVertex& pin : pins) {
+        const Vec2 a = uv[static_cast<std::size_t>(pin.vertex)] - from, b = pin.place - to;
+        cosine += a.dot(b);
+        sine += cross(a, b);
+    }
+    const double length = std::hypot(cosine, sine);
+    const Vec2 turn = length > 0.0 ? Vec2(cosine / length, sine / length) : Vec2::UnitX();
+    for (Vec2& p : uv) {
+        const Vec2 q = p - from;
+        p = to + Vec2(turn.x() * q.x() - turn.y() * q.y(), turn.y() * q.x() + turn.x() * q.y());
+    }
+}
+
+}  // namespace lastflat

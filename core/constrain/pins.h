@@ -1,0 +1,23 @@
+// Points that lie at given places of the plane.
+#pragma once
+
+#include "core/constrain/constraint.h"
+#include "core/parameterize/domain.h"
+
+namespace lastflat {
+
+struct PinnedVertex {
+    Index vertex;  ///< of the region
+    Vec2 place;    ///< mm
+};
+
+/// The pins of one region.
+[[nodiscard]] std::vector<PinnedVertex> pinned_vertices(const Region& region,
+                                                        const std::vector<Constraint>& constraints);
+
+/// Moves and turns points rigidly so that the pinned ones come as near to their places as they can.
+///
+/// Paper: [umeyama-1991], in the plane.
+void move_to_pins(const std::vector<PinnedVertex>& pins, Points2& uv);
+
+}  // namespace lastflat

@@ -1,0 +1,178 @@
+// Written from coordinates, without the optimiser's rows, so that the one checks the other.
+#include <algorithm>
+#include <cmath>
+
+#include "core/measure/report.h"
+#include "core/numerics/polygon.h"
+#include "core/numerics/tolerances.h"
+
+namespace lastflat {
+namespace {
+
+/// One constraint on one region, or on two.
+class ConstraintMeter {
+public:
+    ConstraintMeter(const std::vector<Region>& regions, const std::vector<Chart>& charts)
+        : regions_(regions), charts_(charts) {}
+
+    std::vector<ConstraintReport> measure(const Constraint& constraint) {
+        std::vector<ConstraintReport> reports;
+        if (constraint.kind == ConstraintKind::match) {
+            reports.push_back(match(constraint));
+            return reports;
+        }
+        for (std::size_t r = 0; r < regions_.size(); ++r) {
+            if (!constraint.region.empty() && constraint.region != regions_[r].name) continue;
+            if (constraint.kind == ConstraintKind::total_area) {
+                reports.push_back(area(constraint, r));
+            } else if (constraint.kind == ConstraintKind::pin) {
+                for (const PinnedVertex& p : pinned_vertices(regions_[r], {constraint}))
+                    reports.push_back(pin(r, p));
+            } else {
+                for (const CurveRun& run : regions_[r].runs) {
+                    if (run.curve == constraint.curve) reports.push_back(curve(constraint, r, run));
+                }
+            }
+        }
+        return reports;
+    }
+
+private:
+    [[nodiscard]] const Vec2& flat(std::size_t r, Index v) const {
+        return charts_[r].uv[static_cast<std::size_t>(v)];
+    }
+
+    struct Lengths {
+        double in_space = 0.0, flat = 0.0;
+    };
+
+    [[nodiscard]] Lengths lengths(std::size_t r, const CurveRun& run) const {
+        Lengths sum;
+        for (std::size_t i = 1; i < run.vertices.size(); ++i) {
+            sum.in_space += regions_[r].distance(run.vertices[i - 1], run.vertices[i]);
+            sum.flat += (flat(r, run.vertices[i]) - flat(r, run.vertices[i - 1])).norm();
+        }
+        return sum;
+    }
+
+    static ConstraintReport bounded(double least, double most, double reached, double reference) {
+        ConstraintReport report{};
+        report.asked_min = least;
+        report.asked_max = most;
+        report.reached = reached;
+        report.residual_mm = reached > most ? reached - most : std::min(reached - least, 0.0);
+        report.kept = std::abs(report.residual_mm) <= tolerance::locked_length * reference;
+        return report;
+    }
+
+    [[nodiscard]] ConstraintReport curve(const Constraint& constraint, std::size_t r,
+                                         const CurveRun& run) const {
+        const Lengths sum = lengths(r, run);
+        ConstraintReport report{};
+        if (constraint.kind == ConstraintKind::straight) {
+            report = straight(r, run);
+        } else if (constraint.kind == ConstraintKind::range) {
+            report = bounded(sum.in_space * (1.0 + constraint.min_percent / 100.0),
+                             sum.in_space * (1.0 + constraint.max_percent / 100.0), sum.flat,
+                             sum.in_space);
+            report.position = regions_[r].position(run.vertices.front());
+        } else {
+            report = bounded(sum.in_space, sum.in_space, sum.flat, sum.in_space);
+            report.position = regions_[r].position(run.vertices.front());
+            if (constraint.keep == Keep::edges) worst_edge(r, run, report);
+        }
+        report.region = regions_[r].name;
+        return report;
+    }
+
+    void worst_edge(std::size_t r, const CurveRun& run, ConstraintReport& report) const {
+        report.residual_mm = 0.0;
+        report.kept = true;
+        for (std::size_t i = 1; i < run.vertices.size(); ++i) {
+            const Index a = run.vertices[i - 1], b = run.vertices[i];
+            const double length = regions_[r].distance(a, b);
+            const double error = (flat(r, a) - flat(r, b)).norm() - length;
+            if (std::abs(error) > tolerance::locked_length * length) report.kept = false;
+            if (std::abs(error) <= std::abs(report.residual_mm)) continue;
+            report.residual_mm = error;
+            report.position = regions_[r].position(a);
+        }
+    }
+
+    /// The largest distance from the line between the ends.
+    [[nodiscard]] ConstraintReport straight(std::size_t r, const CurveRun& run) const {
+        const Vec2 from = flat(r, run.vertices.front());
+        const Vec2 along = flat(r, run.vertices.back()) - from;
+        ConstraintReport report{};
+        report.position = regions_[r].position(run.vertices.front());
+        for (const Index v : run.vertices) {
+            const double offset = std::abs(cross(along, flat(r, v) - from)) / along.norm();
+            if (offset <= report.reached) continue;
+            report.reached = report.residual_mm = offset;
+            report.position = regions_[r].position(v);
+        }
+        report.kept = report.reached <= tolerance::locked_length * along.norm();
+        return report;
+    }
+
+    [[nodiscard]] ConstraintReport area(const Constraint& constraint, std::size_t r) const {
+        const double on_last = surface_area(regions_[r]);
+        const double in_flat = flat_area(regions_[r], charts_[r].uv), size = std::sqrt(on_last);
+        ConstraintReport report =
+            bounded(on_last * (1.0 + constraint.min_percent / 100.0),
+                    on_last * (1.0 + constraint.max_percent / 100.0), in_flat, on_last);
+        report.residual_mm /= size;
+        report.region = regions_[r].name;
+        report.position = regions_[r].position(regions_[r].border.front());
+        return report;
+    }
+
+    [[nodiscard]] ConstraintReport pin(std::size_t r, const PinnedVertex& pinned) const {
+        const double distance = (flat(r, pinned.vertex) - pinned.place).norm();
+        ConstraintReport report = bounded(0.0, 0.0, distance, std::sqrt(surface_area(regions_[r])));
+        report.region = regions_[r].name;
+        report.position = regions_[r].position(pinned.vertex);
+        return report;
+    }
+
+    [[nodiscard]] ConstraintReport match(const Constraint& constraint) const {
+        std::vector<std::pair<std::size_t, const CurveRun*>> sides;
+        const auto add = [&](const std::string& curve, const std::string& region) {
+            for (std::size_t r = 0; r < regions_.size(); ++r) {
+                if (!region.empty() && region != regions_[r].name) continue;
+                for (const CurveRun& run : regions_[r].runs) {
+                    if (run.curve == curve) sides.emplace_back(r, &run);
+                }
+            }
+        };
+        add(constraint.curve, constraint.region);
+        if (sides.size() < 2) add(constraint.with_curve, constraint.with_region);
+        const Lengths a = lengths(sides[0].first, *sides[0].second);
+        const Lengths b = lengths(sides[1].first, *sides[1].second);
+        ConstraintReport report = bounded(b.flat, b.flat, a.flat, a.in_space);
+        report.region = regions_[sides[0].first].name;
+        report.position = regions_[sides[0].first].position(sides[0].second->vertices.front());
+        return report;
+    }
+
+    const std::vector<Region>& regions_;
+    const std::vector<Chart>& charts_;
+};
+
+}  // namespace
+
+std::vector<ConstraintReport> measure_constraints(const std::vector<Region>& regions,
+                                                  const std::vector<Chart>& charts,
+                                                  const std::vector<Constraint>& constraints) {
+    std::vector<ConstraintReport> reports;
+    ConstraintMeter meter(regions, charts);
+    for (std::size_t c = 0; c < constraints.size(); ++c) {
+        for (ConstraintReport& report : meter.measure(constraints[c])) {
+            report.constraint = c;
+            reports.push_back(std::move(report));
+        }
+    }
+    return reports;
+}
+
+}  // namespace lastflat

@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/measure/report.h"
+#include "core/measure/stretch.h"
+
+namespace lastflat {
+namespace {
+
+constexpr std::size_t most_places = 10;
+/// Places nearer to each other than this share of the region's size are one.
+constexpr double apart = 0.05;
+
+struct Leather {
+    double larger, smaller;  ///< principal strains when lasted, percent: above 0 stretched
+    double area;
+    Index triangle;
+    [[nodiscard]] double worst() const {
+        return std::abs(larger) > std::abs(smaller) ? larger : smaller;
+    }
+};
+
+/// The value below which `share` of the area lies; `values` ascending.
+double percentile(const std::vector<std::pair<double, double>>& values, double total,
+                  double share) {
+    double sum = 0.0;
+    for (const auto& [value, area] : values) {
+        sum += area;
+        if (sum >= share * total) return value;
+    }
+    return values.back().first;
+}
+
+StretchPercentiles percentiles(std::vector<std::pair<double, double>> values, double total) {
+    std::sort(values.begin(), values.end());
+    return {percentile(values, total, 0.01), percentile(values, total, 0.05),
+            percentile(values, total, 0.50), percentile(values, total, 0.95),
+            percentile(values, total, 0.99)};
+}
+
+std::vector<WorstPlace> worst_places(const Region& region, std::vector<Leather> leather,
+                                     double total) {
+    std::sort(leather.begin(), leather.end(), [](const Leather& a, const Leather& b) {
+        return std::pair(-std::abs(a.worst()), a.triangle) <
+               std::pair(-std::abs(b.worst()), b.triangle);
+    });
+    std::vector<WorstPlace> places;
+    for (const Leather& l : leather) {
+        if (places.size() == most_places) break;
+        const Triangle& t = region.triangles[static_cast<std::size_t>(l.triangle)];
+        const Vec3 middle =
+            (region.position(t[0]) + region.position(t[1]) + region.position(t[2])) / 3.0;
+        const bool known = std::any_of(places.begin(), places.end(), [&](const WorstPlace& p) {
+            return (p.position - middle).norm() < apart * std::sqrt(total);
+        });
+        if (!known) places.push_back({middle, l.larger, l.smaller});
+    }
+    return places;
+}
+
+}  // namespace
+
+StretchReport measure_stretch(const Region& region, const Points2& uv,
+                              const std::optional<MaterialLimits>& material) {
+    std::vector<Leather> leather;
+    std::vector<std::pair<double, double>> larger, smaller;
+    StretchReport report{};
+    double total = 0.0, beyond = 0.0;
+    for (std::size_t i = 0; i < region.triangles.size(); ++i) {
+        const Stretch s = stretch_of(region, uv, region.triangles[i]);
+        const Leather l{100.0 * (s.G - 1.0), 100.0 * (s.g - 1.0), s.area_3d, static_cast<Index>(i)};
+        leather.push_back(l);
+        larger.emplace_back(l.larger, l.area);
+        smaller.emplace_back(l.smaller, l.area);
+        total += l.area;
+        report.most_stretched_percent = std::max(report.most_stretched_percent, l.larger);
+        report.most_compressed_percent = std::max(report.most_compressed_percent, -l.smaller);
+        if (material && (l.larger > material->stretch_max_percent ||
+                         -l.smaller > material->compress_max_percent))
+            beyond += l.area;
+    }
+    report.larger = percentiles(std::move(larger), total);
+    report.smaller = percentiles(std::move(smaller), total);
+    report.worst = worst_places(region, std::move(leather), total);
+    if (material) {
+        report.beyond_material = beyond / total;
+        report.material_verdict = beyond == 0.0            ? Verdict::pass
+                                  : beyond <= 0.01 * total ? Verdict::warn
+                                                           : Verdict::fail;
+    }
+    return report;
+}
+
+}  // namespace lastflat
