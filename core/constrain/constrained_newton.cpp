@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/constrain/optimality_system.h"
 #include "core/constrain/pins.h"
@@ -21,6 +22,10 @@ constexpr double approach_decrease = 1e-3;
 constexpr int max_iterations = 200;
 /// An inequality that was let go so often stays: it would come and go forever.
 constexpr int most_releases = 8;
+/// Constraints that contradict each other pull with forces beyond this many times the size of the
+/// surface; or their error has not fallen by a tenth within so many steps.
+constexpr double greatest_force = 1e3;
+constexpr int patience = 15;
 
 using Eigen::VectorXd;
 
@@ -55,6 +60,7 @@ public:
             progress_.check();
             const Step step = take_step(x);
             if (step.promised < decrease * energy_) return true;
+            if (hopeless()) return false;
             if (step.length == 0.0) return projected_gradient_ <= tolerance::stalled_gradient;
         }
         return false;
@@ -74,6 +80,22 @@ public:
     }
 
 private:
+    /// Whether the constraints seem to contradict each other.
+    [[nodiscard]] bool hopeless() {
+        if (worst_error_ <= tolerance::locked_length) return false;
+        if (worst_error_ < 0.9 * least_error_) {
+            least_error_ = worst_error_;
+            least_at_ = iterations_;
+        }
+        double force = 0.0;
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            if (!soft(k))
+                force = std::max(force, std::abs(multipliers_[static_cast<Eigen::Index>(k)]));
+        }
+        return force > greatest_force * std::sqrt(distortion_.total_area()) ||
+               iterations_ - least_at_ >= patience;
+    }
+
     struct Step {
         double promised;  ///< decrease of the merit function, by the model
         double length;    ///< share of the step taken; 0: the merit function does not fall
@@ -221,7 +243,8 @@ private:
     std::vector<Held> held_;
     std::vector<int> releases_;
     double energy_ = 0.0, penalty_ = 0.0, projected_gradient_ = 0.0, worst_error_ = 0.0;
-    int iterations_ = 0, factorizations_ = 0;
+    double least_error_ = std::numeric_limits<double>::infinity();
+    int iterations_ = 0, factorizations_ = 0, least_at_ = 0;
     bool near_ = false;
 };
 

@@ -11,12 +11,20 @@ namespace {
 
 /// mm of error for a force of 1 mm while constraints compromise: so little that the distortion
 /// hardly counts beside it.
-constexpr double compromise = 1e-6;
+constexpr double compromise = 1e-4;
+/// A constraint that gave way still pulls, but at most with this share of the size of the surface.
+constexpr double greatest_pull = 0.1;
 
 std::string amount(double value, const char* unit) {
     char text[48];
     std::snprintf(text, sizeof text, "%.3g%s", value, unit);
     return text;
+}
+
+double total_area(const Domain& domain) {
+    double area = 0.0;
+    for (const Region* region : domain.regions) area += surface_area(*region);
+    return area;
 }
 
 class Resolver {
@@ -30,7 +38,8 @@ public:
           threads_(threads),
           progress_(progress),
           rows_(constraint_rows(domain, constraints_)),
-          role_(constraints_.size(), Role::kept) {}
+          role_(constraints_.size(), Role::kept),
+          compliance_(rows_.size(), compromise) {}
 
     ConstrainedChart run() {
         ConstrainedChart result;
@@ -38,26 +47,42 @@ public:
         while (!kept(result.minimum)) {
             const auto fighting = smallest_conflict();
             if (demands_.on_conflict == OnConflict::fail) fail(fighting);
-            result.relaxed.push_back(yield(fighting));
-            result.minimum = solve(role_);
+            role_[fighting.front()] = Role::soft;
+            result.relaxed.push_back(fighting.front());
+            result.minimum = solve(without_soft());
         }
+        if (!result.relaxed.empty()) pull_back(result.minimum);
         return result;
     }
 
 private:
     enum class Role { kept, soft, absent };
 
+    /// Where the constraints are out of reach from the start, a compromise comes first: from there
+    /// they may be near.
     [[nodiscard]] Minimum solve(const std::vector<Role>& roles) const {
+        Minimum minimum = solve_from(starts_, roles);
+        if (kept(minimum)) return minimum;
+        std::vector<Role> yielding = roles;
+        for (Role& role : yielding) {
+            if (role == Role::kept) role = Role::soft;
+        }
+        return solve_from(solve_from(starts_, yielding).charts, roles);
+    }
+
+    [[nodiscard]] Minimum solve_from(const std::vector<Chart>& starts,
+                                     const std::vector<Role>& roles) const {
         std::vector<ConstraintRow> rows;
         std::vector<double> compliance;
-        for (const ConstraintRow& row : rows_) {
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            const ConstraintRow& row = rows_[k];
             const Role role = roles[row.constraint];
             if (role == Role::absent) continue;
             rows.push_back(row);
-            compliance.push_back(role == Role::soft ? compromise : 0.0);
+            compliance.push_back(role == Role::soft ? compliance_[k] : 0.0);
         }
         return minimise_distortion(
-            {domain_, rows, demands_.energy, compliance, threads_, demands_.weights}, starts_,
+            {domain_, rows, demands_.energy, compliance, threads_, demands_.weights}, starts,
             progress_);
     }
 
@@ -78,10 +103,7 @@ private:
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
             return constraints_[a].priority < constraints_[b].priority;
         });
-        std::vector<Role> roles = role_;
-        for (auto& role : roles) {
-            if (role == Role::soft) role = Role::absent;
-        }
+        std::vector<Role> roles = without_soft();
         std::vector<std::size_t> fighting;
         for (const std::size_t c : order) {
             roles[c] = Role::absent;
@@ -92,10 +114,24 @@ private:
         return fighting;
     }
 
-    /// The least important of them becomes soft.
-    std::size_t yield(const std::vector<std::size_t>& fighting) {
-        role_[fighting.front()] = Role::soft;
-        return fighting.front();
+    [[nodiscard]] std::vector<Role> without_soft() const {
+        std::vector<Role> roles = role_;
+        for (Role& role : roles) {
+            if (role == Role::soft) role = Role::absent;
+        }
+        return roles;
+    }
+
+    /// Lets the constraints that gave way pull the charts back, as far as the others give.
+    void pull_back(Minimum& minimum) {
+        const Eigen::VectorXd x = domain_.coordinates(minimum.charts);
+        const double force = greatest_pull * std::sqrt(total_area(domain_));
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            const double error = std::abs(rows_[k].violation(rows_[k].value(x)));
+            compliance_[k] = std::max(compromise, error / force);
+        }
+        Minimum pulled = solve_from(minimum.charts, role_);
+        if (kept(pulled)) minimum = std::move(pulled);
     }
 
     [[noreturn]] void fail(const std::vector<std::size_t>& fighting) const {
@@ -145,6 +181,7 @@ private:
     const Progress& progress_;
     const std::vector<ConstraintRow> rows_;
     std::vector<Role> role_;
+    std::vector<double> compliance_;  ///< per row, while it is soft
 };
 
 Warning not_converged(const Domain& domain, const Minimum& minimum) {
