@@ -86,7 +86,7 @@ Refined isometric(const Domain& domain, const std::vector<Chart>& starts,
     const IsotropicEnergy& energy =
         options.weights.even() ? static_cast<const IsotropicEnergy&>(even) : uneven;
     return minimised(domain, starts,
-                     {options.constraints, energy, std::move(weights), options.on_conflict},
+                     {options.constraints, energy, std::move(weights), options.on_conflict, true},
                      options, progress);
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/constrain/optimality_system.h"
 #include "core/constrain/pins.h"
@@ -19,7 +20,7 @@ namespace {
 constexpr double near_isometry = 1.05;
 /// The approach ends when a step promises less than this share of the energy.
 constexpr double approach_decrease = 1e-3;
-constexpr int max_iterations = 200;
+constexpr int max_iterations = 300;
 /// An inequality that was let go so often stays: it would come and go forever.
 constexpr int most_releases = 8;
 /// Constraints that contradict each other pull with forces beyond this many times the size of the
@@ -37,7 +38,10 @@ public:
                                                  : problem.compliance),
           distortion_(distortion),
           progress_(progress),
-          system_(problem.domain, rows_, compliance_, distortion, problem.threads, progress),
+          contact_(problem.contact ? std::make_optional<BorderContact>(problem.domain)
+                                   : std::nullopt),
+          system_(problem.domain, rows_, compliance_, distortion, contact_ ? &*contact_ : nullptr,
+                  problem.threads, progress),
           multipliers_(VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()))),
           held_(rows_.size(), Held::not_held),
           releases_(rows_.size(), 0) {
@@ -133,13 +137,15 @@ private:
 
     [[nodiscard]] double merit(const VectorXd& x) const {
         const double energy = distortion_.value(x);
-        return std::isfinite(energy) ? energy + cost_of(row_values(x)) : energy;
+        if (!std::isfinite(energy)) return energy;
+        return energy + cost_of(row_values(x)) + (contact_ ? contact_->value(x) : 0.0);
     }
 
     /// Evaluates everything at x, which then is where the search stands.
     void move_to(const VectorXd& x) {
         energy_ = distortion_.value(x);
         gradient_ = distortion_.gradient(x);
+        if (contact_) contact_->add_gradient(x, gradient_);
         values_ = row_values(x);
         const VectorXd errors = residual(values_);
         worst_error_ = 0.0;
@@ -182,6 +188,7 @@ private:
     Step take_step(VectorXd& x) {
         ++iterations_;
         ++factorizations_;
+        system_.prepare(x);
         system_.factor(x, multipliers_, held_, near_ ? HessianKind::exact : HessianKind::projected);
         const VectorXd errors = residual(values_);
         const VectorXd solution = system_.solve(-gradient_, -errors);
@@ -217,6 +224,7 @@ private:
             return merit(to) <= before + armijo * t * slope + allowance;
         };
         double t = std::min(1.0, 0.95 * distortion_.collapse_step(x, d));
+        if (contact_) t = std::min(t, contact_->collision_step(x, t * d) * t);
         for (bool first = true; t > smallest; t *= 0.5, first = false) {
             VectorXd to = x + t * d;
             bool accepted = falls(to, t);
@@ -224,7 +232,7 @@ private:
                 // Edges that turn by a finite angle come out too long: correct to second order.
                 to += system_.solve(VectorXd::Zero(x.size()), -residual(row_values(to)))
                           .head(x.size());
-                accepted = falls(to, t);
+                accepted = reaches(x, to) && falls(to, t);
             }
             if (accepted) {
                 x = to;
@@ -234,10 +242,16 @@ private:
         return 0.0;
     }
 
+    /// Whether nothing collides on the straight way.
+    [[nodiscard]] bool reaches(const VectorXd& x, const VectorXd& to) const {
+        return !contact_ || contact_->collision_step(x, to - x) == 1.0;
+    }
+
     const std::vector<ConstraintRow>& rows_;
     const std::vector<double> compliance_;
     Distortion& distortion_;
     const Progress& progress_;
+    std::optional<BorderContact> contact_;
     OptimalitySystem system_;
     VectorXd multipliers_, gradient_, values_;
     std::vector<Held> held_;
@@ -290,7 +304,9 @@ Minimum minimise_distortion(const Problem& problem, const std::vector<Chart>& st
     Minimum result;
     if (distortion.value(x) > near_isometry * distortion.total_area()) {
         const std::vector<ConstraintRow> none;
-        const Problem free{problem.domain, none, problem.energy, {}, problem.threads};
+        Problem free{problem.domain, none, problem.energy};
+        free.threads = problem.threads;
+        free.contact = problem.contact;
         ConstrainedNewton approach(free, distortion, progress);
         approach.run(x, approach_decrease, near_isometry);
         approach.report(result);

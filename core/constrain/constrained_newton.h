@@ -16,6 +16,8 @@ struct Problem {
     /// Per row, mm of error for a force of 1 mm; 0 or absent: the row is kept exactly.
     std::vector<double> compliance{};
     std::size_t threads = 1;
+    /// Whether borders are kept from crossing themselves. The starts must not cross.
+    bool contact = false;
     /// Per region and triangle how much its distortion counts; none: all the same.
     std::vector<std::vector<double>> weights{};
 };

@@ -14,30 +14,8 @@
 namespace lastflat {
 namespace {
 
-using Pair = std::pair<Index, Index>;
-
 std::size_t at(Index i) {
     return static_cast<std::size_t>(i);
-}
-
-/// Every two vertices that share an edge or a constraint's bend, the smaller first; with repeats.
-std::vector<Pair> vertex_pairs(const Domain& domain, const std::vector<ConstraintRow>& rows) {
-    std::vector<Pair> pairs;
-    for (std::size_t r = 0; r < domain.regions.size(); ++r) {
-        const Index first = domain.first[r];
-        for (const Triangle& t : domain.regions[r]->triangles) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                const auto [a, b] = std::minmax(t[i], t[(i + 1) % 3]);
-                pairs.emplace_back(a + first, b + first);
-            }
-        }
-    }
-    for (const ConstraintRow& row : rows) {
-        for (const Term& term : row.terms) {
-            if (term.kind != TermKind::coordinate) pairs.push_back(std::minmax(term.a, term.b));
-        }
-    }
-    return pairs;
 }
 
 std::vector<Index> vertices_of(const ConstraintRow& row) {
@@ -51,18 +29,100 @@ std::vector<Index> vertices_of(const ConstraintRow& row) {
     return vertices;
 }
 
+/// Places of the vertices for the dissection; the regions far from each other, so that the first
+/// planes run between them.
+Points3 spread_positions(const Domain& domain) {
+    Points3 positions;
+    positions.reserve(at(domain.vertices()));
+    for (std::size_t r = 0; r < domain.regions.size(); ++r) {
+        const Vec3 offset(static_cast<double>(r) * 10.0 * tolerance::largest_coordinate_mm, 0, 0);
+        for (const Vec3& p : domain.regions[r]->positions) positions.emplace_back(p + offset);
+    }
+    return positions;
+}
+
+/// The last block that both are in or below: the deepest common ancestor, or `none`.
+Index common_block(const std::vector<UnknownBlock>& blocks, Index a, Index b, Index none) {
+    while (a != b) {  // parents come after their children
+        Index& lower = a < b ? a : b;
+        lower = blocks[at(lower)].parent;
+        if (lower < 0) return none;
+    }
+    return a;
+}
+
+}  // namespace
+
+OptimalitySystem::OptimalitySystem(const Domain& domain, const std::vector<ConstraintRow>& rows,
+                                   const std::vector<double>& compliance, Distortion& distortion,
+                                   const BorderContact* contact, std::size_t threads,
+                                   const Progress& progress)
+    : domain_(domain),
+      rows_(rows),
+      compliance_(compliance),
+      distortion_(distortion),
+      contact_(contact),
+      threads_(threads),
+      progress_(progress),
+      unknowns_(2 * domain.vertices()) {
+    analyse();
+}
+
+void OptimalitySystem::analyse() {
+    matrix_ = pattern();
+    distortion_.bind(matrix_);
+    solver_.analyse(matrix_, elimination_blocks());
+}
+
+void OptimalitySystem::prepare(const Eigen::VectorXd& x) {
+    constexpr double soon = 3.0;
+    if (contact_ == nullptr) return;
+    const auto add = [&](double distance) {
+        const std::size_t before = contacts_.size();
+        for (const ContactPair& pair : contact_->near_pairs(x, distance)) {
+            contacts_.insert(std::minmax(pair.point, pair.a));
+            contacts_.insert(std::minmax(pair.point, pair.b));
+        }
+        return contacts_.size() > before;
+    };
+    if (!add(contact_->clearance())) return;
+    add(soon * contact_->clearance());
+    analyse();
+}
+
+/// Every two vertices that share an edge, a constraint's bend or a contact, the smaller first; with
+/// repeats.
+std::vector<OptimalitySystem::VertexPair> OptimalitySystem::vertex_pairs() const {
+    std::vector<VertexPair> pairs(contacts_.begin(), contacts_.end());
+    for (std::size_t r = 0; r < domain_.regions.size(); ++r) {
+        const Index first = domain_.first[r];
+        for (const Triangle& t : domain_.regions[r]->triangles) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto [a, b] = std::minmax(t[i], t[(i + 1) % 3]);
+                pairs.emplace_back(a + first, b + first);
+            }
+        }
+    }
+    for (const ConstraintRow& row : rows_) {
+        for (const Term& term : row.terms) {
+            if (term.kind != TermKind::coordinate) pairs.push_back(std::minmax(term.a, term.b));
+        }
+    }
+    return pairs;
+}
+
 /// The lower triangle's pattern, all values zero: a 2x2 block for every pair and vertex, a row for
 /// every constraint.
-SparseMatrix pattern(const Domain& domain, const std::vector<ConstraintRow>& rows) {
-    const Index n = domain.vertices();
-    const auto m = static_cast<Index>(rows.size());
-    std::vector<Pair> blocks = vertex_pairs(domain, rows);
+SparseMatrix OptimalitySystem::pattern() const {
+    const Index n = domain_.vertices();
+    const auto m = static_cast<Index>(rows_.size());
+    std::vector<VertexPair> blocks = vertex_pairs();
     for (Index v = 0; v < n; ++v) blocks.emplace_back(v, v);
     std::sort(blocks.begin(), blocks.end());
     blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-    std::vector<Pair> in_rows;  // (vertex, row)
+    std::vector<VertexPair> in_rows;  // (vertex, row)
     for (Index k = 0; k < m; ++k) {
-        for (const Index v : vertices_of(rows[at(k)])) in_rows.emplace_back(v, k);
+        for (const Index v : vertices_of(rows_[at(k)])) in_rows.emplace_back(v, k);
     }
     std::sort(in_rows.begin(), in_rows.end());
     SparseMatrix matrix(2 * n + m, 2 * n + m);
@@ -92,50 +152,11 @@ SparseMatrix pattern(const Domain& domain, const std::vector<ConstraintRow>& row
     return matrix;
 }
 
-/// Places of the vertices for the dissection; the regions far from each other, so that the first
-/// planes run between them.
-Points3 spread_positions(const Domain& domain) {
-    Points3 positions;
-    positions.reserve(at(domain.vertices()));
-    for (std::size_t r = 0; r < domain.regions.size(); ++r) {
-        const Vec3 offset(static_cast<double>(r) * 10.0 * tolerance::largest_coordinate_mm, 0, 0);
-        for (const Vec3& p : domain.regions[r]->positions) positions.emplace_back(p + offset);
-    }
-    return positions;
-}
-
-/// The last block that both are in or below: the deepest common ancestor, or `none`.
-Index common_block(const std::vector<UnknownBlock>& blocks, Index a, Index b, Index none) {
-    while (a != b) {  // parents come after their children
-        Index& lower = a < b ? a : b;
-        lower = blocks[at(lower)].parent;
-        if (lower < 0) return none;
-    }
-    return a;
-}
-
-}  // namespace
-
-OptimalitySystem::OptimalitySystem(const Domain& domain, const std::vector<ConstraintRow>& rows,
-                                   const std::vector<double>& compliance, Distortion& distortion,
-                                   std::size_t threads, const Progress& progress)
-    : domain_(domain),
-      rows_(rows),
-      compliance_(compliance),
-      distortion_(distortion),
-      threads_(threads),
-      progress_(progress),
-      unknowns_(2 * domain.vertices()),
-      matrix_(pattern(domain, rows)) {
-    distortion_.bind(matrix_);
-    solver_.analyse(matrix_, elimination_blocks());
-}
-
 /// Both coordinates of the dissection's vertices. A multiplier comes after all vertices of its
 /// row, in the block where the last of them are: before them its pivot would be next to nothing.
 std::vector<UnknownBlock> OptimalitySystem::elimination_blocks() const {
-    const auto dissection = nested_dissection(
-        vertex_graph(domain_.vertices(), vertex_pairs(domain_, rows_)), spread_positions(domain_));
+    const auto dissection = nested_dissection(vertex_graph(domain_.vertices(), vertex_pairs()),
+                                              spread_positions(domain_));
     std::vector<UnknownBlock> blocks(dissection.size());
     std::vector<Index> block_of(at(domain_.vertices()));
     for (std::size_t b = 0; b < dissection.size(); ++b) {
@@ -278,6 +299,10 @@ double OptimalitySystem::fill(const Eigen::VectorXd& x, const Eigen::VectorXd& m
                               const std::vector<Held>& held, HessianKind kind) {
     std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
     distortion_.add_hessian(x, kind, matrix_);
+    if (contact_ != nullptr) {
+        contact_->for_hessian(
+            x, kind, [&](Index row, Index column, double value) { entry(row, column) += value; });
+    }
     double trace = 0.0;
     for (Index i = 0; i < unknowns_; ++i) trace += diagonal(i);
     const double mean = trace / unknowns_;

@@ -1,6 +1,9 @@
 // The linear system of one constrained Newton step.
 #pragma once
 
+#include <set>
+
+#include "core/constrain/border_contact.h"
 #include "core/constrain/constraint_rows.h"
 #include "core/numerics/multifrontal_ldlt.h"
 #include "core/parameterize/distortion.h"
@@ -18,10 +21,13 @@ enum class Held : signed char { by_least = -1, not_held = 0, by_most = 1 };
 class OptimalitySystem {
 public:
     /// All arguments must outlive the system. `compliance`: per row how far, mm, it gives way to a
-    /// force of 1 mm; 0: it does not.
+    /// force of 1 mm; 0: it does not. `contact` may be null.
     OptimalitySystem(const Domain& domain, const std::vector<ConstraintRow>& rows,
                      const std::vector<double>& compliance, Distortion& distortion,
-                     std::size_t threads, const Progress& progress);
+                     const BorderContact* contact, std::size_t threads, const Progress& progress);
+
+    /// Makes room for contacts that are or may soon be near at x.
+    void prepare(const Eigen::VectorXd& x);
 
     /// Fills and factors the system at x. An exact Hessian that is not positive definite along the
     /// constraints is shifted until it is or, failing that, replaced by the projected one.
@@ -38,6 +44,10 @@ public:
                     Eigen::VectorXd& gradient) const;
 
 private:
+    using VertexPair = std::pair<Index, Index>;
+    void analyse();
+    [[nodiscard]] std::vector<VertexPair> vertex_pairs() const;
+    [[nodiscard]] SparseMatrix pattern() const;
     [[nodiscard]] std::vector<UnknownBlock> elimination_blocks() const;
     /// Returns the mean of the Hessian's diagonal.
     double fill(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
@@ -55,6 +65,8 @@ private:
     const std::vector<ConstraintRow>& rows_;
     const std::vector<double>& compliance_;
     Distortion& distortion_;
+    const BorderContact* contact_;
+    std::set<VertexPair> contacts_;  ///< that the pattern has room for
     std::size_t threads_;
     const Progress& progress_;
     Index unknowns_;

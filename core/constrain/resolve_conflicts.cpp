@@ -81,9 +81,11 @@ private:
             rows.push_back(row);
             compliance.push_back(role == Role::soft ? compliance_[k] : 0.0);
         }
-        return minimise_distortion(
-            {domain_, rows, demands_.energy, compliance, threads_, demands_.weights}, starts,
-            progress_);
+        Problem problem{domain_, rows, demands_.energy, std::move(compliance)};
+        problem.threads = threads_;
+        problem.contact = demands_.contact;
+        problem.weights = demands_.weights;
+        return minimise_distortion(problem, starts, progress_);
     }
 
     [[nodiscard]] static bool kept(const Minimum& minimum) {

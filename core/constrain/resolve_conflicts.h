@@ -22,6 +22,7 @@ struct Demands {
     const IsotropicEnergy& energy;
     std::vector<std::vector<double>> weights{};  ///< see `Problem`
     OnConflict on_conflict = OnConflict::fail;
+    bool contact = false;  ///< see `Problem`
 };
 
 /// Least distortion of a domain under constraints.

@@ -1,6 +1,7 @@
 #include "core/parameterize/start.h"
 
 #include "core/border/convex_border.h"
+#include "core/numerics/polygon.h"
 #include "core/parameterize/fixed_border.h"
 #include "core/parameterize/floating_border.h"
 
@@ -24,8 +25,10 @@ std::string try_fan(const Region& region, const std::vector<bool>& locked, Angle
         return error.what();
     }
     const auto flipped = flipped_triangles(region, chart.uv);
-    if (flipped.empty()) return {};
-    return std::to_string(flipped.size()) + " triangles of it are flipped";
+    if (!flipped.empty()) return std::to_string(flipped.size()) + " triangles of it are flipped";
+    Points2 outline;
+    for (const Index v : region.border) outline.push_back(chart.uv[static_cast<std::size_t>(v)]);
+    return self_crossings(outline).empty() ? "" : "its border crosses itself";
 }
 
 Start energy_start(const Region& region, const std::vector<bool>& locked, AngleRule angles) {

@@ -1,7 +1,9 @@
 // One region at the least of its energy.
 #pragma once
 
-#include "core/constrain/constrained_newton.h"
+#include "core/border/convex_border.h"
+#include "core/constrain/resolve_conflicts.h"
+#include "core/parameterize/fixed_border.h"
 
 namespace lastflat::test {
 
@@ -12,6 +14,20 @@ inline Minimum minimised(const Region& region, const Chart& start,
     const Domain domain({&region});
     const auto rows = constraint_rows(domain, constraints);
     return minimise_distortion({domain, rows, energy}, {start}, progress);
+}
+
+/// The same with its conflicts resolved and its border kept from crossing.
+inline ConstrainedChart flattened(const std::vector<const Region*>& regions,
+                                  const std::vector<Constraint>& constraints,
+                                  OnConflict on_conflict = OnConflict::fail,
+                                  std::size_t threads = 1) {
+    const Domain domain(regions);
+    std::vector<Chart> starts;
+    for (const Region* region : regions)
+        starts.push_back(flatten_fixed_border(*region, mean_value_weights, circle_border(*region)));
+    const SymmetricDirichlet energy;
+    return least_distortion(domain, starts, {constraints, energy, {}, on_conflict, true}, threads,
+                            Progress());
 }
 
 }  // namespace lastflat::test

@@ -89,6 +89,14 @@ inline Region saddle(int n = 12) {
     });
 }
 
+/// A ramp that turns more than once: flat, its ends would lie on each other.
+inline Region spiral(double turns = 1.3, int n = 60) {
+    return grid(n, 3, [turns](double s, double t) {
+        const double angle = 2.0 * M_PI * turns * s, r = 60 - 20 * t;
+        return Vec3(r * std::cos(angle), r * std::sin(angle), 10 * turns * s);
+    });
+}
+
 /// The largest difference between two sets of points after the best rigid motion in the plane.
 inline double rigid_difference(const Points2& a, const Points2& b) {
     Vec2 mean_a = Vec2::Zero(), mean_b = Vec2::Zero();

@@ -2,19 +2,20 @@
 
 #include <doctest/doctest.h>
 
-#include "core/border/convex_border.h"
-#include "core/parameterize/fixed_border.h"
+#include "core/measure/report.h"
+#include "tests/helpers/minimum.h"
 #include "tests/helpers/shapes.h"
 
 namespace lastflat {
 namespace {
 
-ConstrainedChart resolved(const Region& region, const std::vector<Constraint>& constraints,
-                          OnConflict on_conflict = OnConflict::fail) {
-    const Domain domain({&region});
-    const Chart start = flatten_fixed_border(region, mean_value_weights, circle_border(region));
-    const SymmetricDirichlet energy;
-    return least_distortion(domain, {start}, {constraints, energy, {}, on_conflict}, 1, Progress());
+Constraint range(const std::string& curve, double least, double most) {
+    Constraint constraint;
+    constraint.kind = ConstraintKind::range;
+    constraint.curve = curve;
+    constraint.min_percent = least;
+    constraint.max_percent = most;
+    return constraint;
 }
 
 }  // namespace
@@ -39,13 +40,54 @@ TEST_SUITE("core/constrain/resolve_conflicts") {
         for (int i = 0; i <= 6; ++i) region.runs.back().vertices.push_back(i * 8);
         locks.push_back(lock("diagonal"));
         try {
-            (void)resolved(region, locks);
+            (void)test::flattened({&region}, locks);
             FAIL("no error");
         } catch (const Error& error) {
             CHECK(error.code() == ErrorCode::constraints_infeasible);
             CHECK(std::string(error.what()).find("lock of ") != std::string::npos);
             CHECK(error.position().has_value());
         }
+    }
+
+    TEST_CASE("the smallest fighting set leaves out what does not fight") {
+        const Region region = test::saddle();
+        std::vector<Constraint> constraints{lock("left"), lock("bottom"), range("bottom", 1, 2),
+                                            lock("top", Keep::total)};
+        for (std::size_t i = 0; i < constraints.size(); ++i)
+            constraints[i].option = {"constraints", std::to_string(i)};
+        try {
+            (void)test::flattened({&region}, constraints);
+            FAIL("no error");
+        } catch (const Error& error) {
+            CHECK(error.code() == ErrorCode::constraints_infeasible);
+            REQUIRE(error.conflict().size() == 2);
+            CHECK(error.conflict()[0].option == "/constraints/1");
+            CHECK(error.conflict()[1].option == "/constraints/2");
+            CHECK(error.conflict()[1].off_mm < 0.0);
+        }
+    }
+
+    TEST_CASE("the least important gives way, the others hold") {
+        const Region region = test::saddle();
+        std::vector<Constraint> constraints{lock("left"), lock("bottom"), range("bottom", 1, 2)};
+        for (const std::size_t weaker : {1u, 2u}) {
+            constraints[1].priority = constraints[2].priority = 0;
+            constraints[weaker].priority = -1;
+            const auto result = test::flattened({&region}, constraints, OnConflict::relax);
+            CHECK(result.relaxed == std::vector<std::size_t>{weaker});
+            const auto reports = measure_constraints({region}, result.minimum.charts, constraints);
+            REQUIRE(reports.size() == 3);
+            for (std::size_t c = 0; c < 3; ++c) CHECK(reports[c].kept == (c != weaker));
+        }
+    }
+
+    TEST_CASE("constraints that can all hold are no conflict, however far the start is") {
+        const Region region = test::dome(8, 1.2);
+        std::vector<Constraint> constraints{lock("left"), lock("right"), lock("top"),
+                                            lock("bottom")};
+        const auto result = test::flattened({&region}, constraints);
+        for (const auto& report : measure_constraints({region}, result.minimum.charts, constraints))
+            CHECK(report.kept);
     }
 }
 

@@ -39,6 +39,7 @@ Minimum minimised(const Region& region, const IsotropicEnergy& energy, MethodNam
 
 TEST_SUITE("core/parameterize/isotropic_energy") {
     TEST_CASE("derivatives are those of the value") {
+        check_derivatives(WeightedDirichlet(1.0, 4.0));
         check_derivatives(SymmetricDirichlet());
         check_derivatives(Mips());
         check_derivatives(GreenLagrange());

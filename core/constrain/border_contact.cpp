@@ -1,0 +1,244 @@
+// Based on: Smith, Schaefer, "Bijective Parameterization with Free Boundaries", SIGGRAPH 2015; Li
+// et al., "Incremental Potential Contact", SIGGRAPH 2020.
+#include "core/constrain/border_contact.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/numerics/box_tree.h"
+#include "core/numerics/polygon.h"
+
+namespace lastflat {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Of the mean border edge.
+constexpr double clearance_share = 0.01;
+/// Pressure of the barrier, in units of the energy density.
+constexpr double stiffness = 0.1;
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+Vec2 point(const Eigen::VectorXd& x, Index v) {
+    return x.segment<2>(2 * v);
+}
+
+/// A distance with its derivatives by (a, b, p).
+struct Distance {
+    double value;
+    Vector6 gradient = Vector6::Zero();
+    Matrix6 hessian = Matrix6::Zero();
+};
+
+/// Adds the derivatives of |q - p| times `factor` for the points at places i and j of six.
+void add_length(const Vec2& unit, double length, Eigen::Index i, Eigen::Index j, Distance& d) {
+    d.gradient.segment<2>(i) = unit;
+    d.gradient.segment<2>(j) = -unit;
+    const Eigen::Matrix2d bend = (Eigen::Matrix2d::Identity() - unit * unit.transpose()) / length;
+    d.hessian.block<2, 2>(i, i) = bend;
+    d.hessian.block<2, 2>(j, j) = bend;
+    d.hessian.block<2, 2>(i, j) = -bend;
+    d.hessian.block<2, 2>(j, i) = -bend;
+}
+
+Distance between_points(const Vec2& p, const Vec2& q, Eigen::Index i, Eigen::Index j) {
+    Distance d{(p - q).norm()};
+    add_length((p - q) / d.value, d.value, i, j, d);
+    return d;
+}
+
+/// Distance to the line: the cross product over the edge's length.
+Distance to_line(const Vec2& a, const Vec2& b, const Vec2& p) {
+    Distance length{(b - a).norm()};
+    add_length((b - a) / length.value, length.value, 2, 0, length);
+    const double doubled = cross(b - a, p - a), sign = doubled < 0.0 ? -1.0 : 1.0;
+    Vector6 area;
+    area << b.y() - p.y(), p.x() - b.x(), p.y() - a.y(), a.x() - p.x(), a.y() - b.y(),
+        b.x() - a.x();
+    Matrix6 area_hessian = Matrix6::Zero();
+    const auto turn = [&](Eigen::Index i, Eigen::Index j) {  // of cross(point i, point j)
+        area_hessian(i, j + 1) += 1.0;
+        area_hessian(j + 1, i) += 1.0;
+        area_hessian(i + 1, j) -= 1.0;
+        area_hessian(j, i + 1) -= 1.0;
+    };
+    turn(0, 2);
+    turn(2, 4);
+    turn(4, 0);
+    const double l = length.value;
+    const Vector6& dl = length.gradient;
+    Distance d{std::abs(doubled) / l};
+    d.gradient = sign * (area / l - doubled / (l * l) * dl);
+    d.hessian =
+        sign *
+        (area_hessian / l - (area * dl.transpose() + dl * area.transpose()) / (l * l) -
+         doubled / (l * l) * length.hessian + 2.0 * doubled / (l * l * l) * dl * dl.transpose());
+    return d;
+}
+
+/// Where along a..b the point nearest to p lies: below 0 and above 1 it is an end.
+double foot(const Vec2& a, const Vec2& b, const Vec2& p) {
+    const double length = (b - a).squaredNorm();
+    return length > 0.0 ? (p - a).dot(b - a) / length : 0.0;
+}
+
+double distance_value(const Vec2& a, const Vec2& b, const Vec2& p) {
+    return (p - a - std::clamp(foot(a, b, p), 0.0, 1.0) * (b - a)).norm();
+}
+
+Distance distance_to_edge(const Vec2& a, const Vec2& b, const Vec2& p) {
+    const double t = foot(a, b, p);
+    if (t <= 0.0) return between_points(p, a, 4, 0);
+    if (t >= 1.0) return between_points(p, b, 4, 2);
+    return to_line(a, b, p);
+}
+
+/// -(t - 1)^2 ln t for t < 1 with its derivatives.
+struct Barrier {
+    double value, first, second;
+};
+
+Barrier barrier(double t) {
+    if (t <= 0.0) return {infinity, -infinity, infinity};
+    if (t >= 1.0) return {0.0, 0.0, 0.0};
+    const double s = t - 1.0, logarithm = std::log(t);
+    return {-s * s * logarithm, -2.0 * s * logarithm - s * s / t,
+            -2.0 * logarithm - 4.0 * s / t + s * s / (t * t)};
+}
+
+/// The first time in [0, 1] at which p meets the edge; infinite if it does not.
+double meeting_time(const std::array<Vec2, 3>& from, const std::array<Vec2, 3>& motion) {
+    const Vec2 e = from[1] - from[0], de = motion[1] - motion[0];
+    const Vec2 q = from[2] - from[0], dq = motion[2] - motion[0];
+    const double a = cross(de, dq), b = cross(de, q) + cross(e, dq), c = cross(e, q);
+    std::array<double, 2> roots{infinity, infinity};
+    const double discriminant = b * b - 4.0 * a * c;
+    if (discriminant < 0.0) return infinity;
+    const double r = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
+    if (a != 0.0) roots[0] = r / a;
+    if (r != 0.0) roots[1] = c / r;
+    std::sort(roots.begin(), roots.end());
+    for (const double t : roots) {
+        if (!(t >= 0.0 && t <= 1.0)) continue;
+        const double where =
+            foot(from[0] + t * motion[0], from[1] + t * motion[1], from[2] + t * motion[2]);
+        constexpr double slack = 1e-6;  // a corner that is passed too closely counts as met
+        if (where >= -slack && where <= 1.0 + slack) return t;
+    }
+    return infinity;
+}
+
+}  // namespace
+
+BorderContact::BorderContact(const Domain& domain)
+    : weight_(static_cast<std::size_t>(domain.vertices()), 0.0) {
+    double total = 0.0;
+    std::size_t edges = 0;
+    for (std::size_t r = 0; r < domain.regions.size(); ++r) {
+        const auto lengths = border_lengths(*domain.regions[r]);
+        Loop loop{domain.regions[r]->border, {}};
+        for (Index& v : loop.vertices) v += domain.first[r];
+        for (std::size_t i = 0; i < lengths.size(); ++i) {
+            const double before = lengths[(i + lengths.size() - 1) % lengths.size()];
+            loop.lengths.push_back(0.5 * (before + lengths[i]));
+            total += lengths[i];
+            ++edges;
+        }
+        loops_.push_back(std::move(loop));
+    }
+    clearance_ = clearance_share * total / static_cast<double>(edges);
+    for (const Loop& loop : loops_) {
+        for (std::size_t i = 0; i < loop.vertices.size(); ++i)
+            weight_[static_cast<std::size_t>(loop.vertices[i])] =
+                stiffness * clearance_ * loop.lengths[i];
+    }
+}
+
+/// Calls visit(pair) for the vertices and edges that may come nearer than `distance` on the way.
+template <class Visit>
+void BorderContact::for_candidates(const Eigen::VectorXd& x, const Eigen::VectorXd& to,
+                                   double distance, const Visit& visit) const {
+    for (const Loop& loop : loops_) {
+        const std::size_t n = loop.vertices.size();
+        std::vector<Box2> paths(n), edges(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            paths[i].extend(point(x, loop.vertices[i]));
+            paths[i].extend(point(to, loop.vertices[i]));
+        }
+        for (std::size_t i = 0; i < n; ++i) edges[i] = paths[i].merged(paths[(i + 1) % n]);
+        const BoxTree tree(edges);
+        for (std::size_t i = 0; i < n; ++i) {
+            Box2 box = paths[i];
+            box.min().array() -= distance;
+            box.max().array() += distance;
+            tree.for_each_meeting(box, [&](Index e) {
+                const std::size_t first = static_cast<std::size_t>(e), second = (first + 1) % n;
+                if (first == i || second == i) return;
+                visit(ContactPair{loop.vertices[i], loop.vertices[first], loop.vertices[second]});
+            });
+        }
+    }
+}
+
+std::vector<ContactPair> BorderContact::near_pairs(const Eigen::VectorXd& x,
+                                                   double distance) const {
+    std::vector<ContactPair> pairs;
+    for_candidates(x, x, distance, [&](const ContactPair& pair) {
+        if (distance_value(point(x, pair.a), point(x, pair.b), point(x, pair.point)) < distance)
+            pairs.push_back(pair);
+    });
+    return pairs;
+}
+
+double BorderContact::value(const Eigen::VectorXd& x) const {
+    double sum = 0.0;
+    for (const ContactPair& pair : near_pairs(x, clearance_)) {
+        const double d = distance_value(point(x, pair.a), point(x, pair.b), point(x, pair.point));
+        sum += weight_[static_cast<std::size_t>(pair.point)] * barrier(d / clearance_).value;
+    }
+    return sum;
+}
+
+void BorderContact::add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const {
+    for (const ContactPair& pair : near_pairs(x, clearance_)) {
+        const Distance d =
+            distance_to_edge(point(x, pair.a), point(x, pair.b), point(x, pair.point));
+        const double slope = weight_[static_cast<std::size_t>(pair.point)] *
+                             barrier(d.value / clearance_).first / clearance_;
+        gradient.segment<2>(2 * pair.a) += slope * d.gradient.segment<2>(0);
+        gradient.segment<2>(2 * pair.b) += slope * d.gradient.segment<2>(2);
+        gradient.segment<2>(2 * pair.point) += slope * d.gradient.segment<2>(4);
+    }
+}
+
+BorderContact::Matrix6 BorderContact::pair_hessian(const ContactPair& pair,
+                                                   const Eigen::VectorXd& x,
+                                                   HessianKind kind) const {
+    const Distance d = distance_to_edge(point(x, pair.a), point(x, pair.b), point(x, pair.point));
+    const Barrier b = barrier(d.value / clearance_);
+    Matrix6 hessian = weight_[static_cast<std::size_t>(pair.point)] *
+                      (b.second / (clearance_ * clearance_) * d.gradient * d.gradient.transpose() +
+                       b.first / clearance_ * d.hessian);
+    if (kind == HessianKind::exact) return hessian;
+    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(hessian);
+    return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
+           eigen.eigenvectors().transpose();
+}
+
+double BorderContact::collision_step(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const {
+    double least = 1.0;
+    bool meets = false;
+    for_candidates(x, x + d, 0.0, [&](const ContactPair& pair) {
+        const double t = meeting_time({point(x, pair.a), point(x, pair.b), point(x, pair.point)},
+                                      {point(d, pair.a), point(d, pair.b), point(d, pair.point)});
+        if (t > least) return;
+        least = t;
+        meets = true;
+    });
+    return meets ? 0.9 * least : 1.0;
+}
+
+}  // namespace lastflat

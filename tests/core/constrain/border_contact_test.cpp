@@ -1,0 +1,113 @@
+#include "core/constrain/border_contact.h"
+
+#include <doctest/doctest.h>
+
+#include "core/measure/report.h"
+#include "tests/helpers/minimum.h"
+#include "tests/helpers/shapes.h"
+
+namespace lastflat {
+namespace {
+
+/// A strip bent almost into a ring, the gap between its ends `gap` mm wide in the middle.
+Eigen::VectorXd bent_strip(const Region& region, double gap) {
+    Eigen::VectorXd x(2 * static_cast<Eigen::Index>(region.positions.size()));
+    const double turn = (2.0 * M_PI - gap / 40.0) / 200.0;
+    for (std::size_t i = 0; i < region.positions.size(); ++i) {
+        const Vec3& p = region.positions[i];
+        const double angle = p.x() * turn, r = 45 - p.y();
+        x.segment<2>(2 * static_cast<Eigen::Index>(i)) =
+            Vec2(r * std::sin(angle) + 0.01 * p.y(), -r * std::cos(angle));
+    }
+    return x;
+}
+
+Region strip() {
+    return test::grid(40, 2, [](double s, double t) { return Vec3(200 * s, 10 * t, 0); });
+}
+
+}  // namespace
+
+TEST_SUITE("core/constrain/border_contact") {
+    TEST_CASE("what stays apart feels nothing") {
+        const Region region = strip();
+        const Domain domain({&region});
+        const BorderContact contact(domain);
+        const Eigen::VectorXd x = bent_strip(region, 2.0);
+        CHECK(contact.near_pairs(x, contact.clearance()).empty());
+        CHECK(contact.value(x) == 0.0);
+        CHECK(contact.collision_step(x, Eigen::VectorXd::Zero(x.size())) == 1.0);
+    }
+
+    TEST_CASE("gradient and exact Hessian are the derivatives of the barrier") {
+        const Region region = strip();
+        const Domain domain({&region});
+        const BorderContact contact(domain);
+        const Eigen::VectorXd x = bent_strip(region, 0.6 * contact.clearance());
+        REQUIRE_FALSE(contact.near_pairs(x, contact.clearance()).empty());
+        Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
+        contact.add_gradient(x, gradient);
+        CHECK(gradient.norm() > 0.0);
+        Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(x.size(), x.size());
+        contact.for_hessian(x, HessianKind::exact,
+                            [&](Index i, Index j, double value) { hessian(i, j) += value; });
+        const double h = 1e-7;
+        for (Eigen::Index i = 0; i < x.size(); ++i) {
+            Eigen::VectorXd a = x, b = x, at_a = Eigen::VectorXd::Zero(x.size()), at_b = at_a;
+            a[i] -= h;
+            b[i] += h;
+            CHECK((contact.value(b) - contact.value(a)) / (2 * h) ==
+                  doctest::Approx(gradient[i]).epsilon(1e-5).scale(gradient.norm()));
+            contact.add_gradient(a, at_a);
+            contact.add_gradient(b, at_b);
+            for (Eigen::Index j = 0; j < x.size(); ++j) {
+                CHECK((at_b[j] - at_a[j]) / (2 * h) ==
+                      doctest::Approx(hessian(std::max(i, j), std::min(i, j)))
+                          .epsilon(1e-4)
+                          .scale(hessian.norm()));
+            }
+        }
+    }
+
+    TEST_CASE("no step goes through an edge") {
+        const Region region = strip();
+        const Domain domain({&region});
+        const BorderContact contact(domain);
+        const Eigen::VectorXd apart = bent_strip(region, 3.0), across = bent_strip(region, -9.0);
+        const Eigen::VectorXd way = across - apart;
+        const double t = contact.collision_step(apart, way);
+        CHECK(t > 0.1);
+        CHECK(t < 0.5);
+        const auto crossings = [&](double s) {
+            const Points2 uv = domain.charts(apart + s * way)[0].uv;
+            return measure_distortion(region, uv).border_crossings;
+        };
+        CHECK(crossings(t) == 0);
+        CHECK(crossings(1.2 * t) > 0);
+    }
+
+    TEST_CASE("a ramp that turns more than once ends at its optimum without crossing") {
+        const Region region = test::spiral();
+        const auto result = test::flattened({&region}, {});
+        const Metrics metrics = measure_distortion(region, result.minimum.charts[0].uv);
+        CHECK(result.minimum.converged);
+        CHECK(metrics.flipped_triangles == 0);
+        CHECK(metrics.border_crossings == 0);
+        // Free of contact it would lie on itself.
+        const Minimum crossing = test::minimised(
+            region, flatten_fixed_border(region, mean_value_weights, circle_border(region)));
+        CHECK(measure_distortion(region, crossing.charts[0].uv).border_crossings > 0);
+        CHECK(result.minimum.energy > crossing.energy);
+    }
+
+    TEST_CASE("locks hold in contact as well") {
+        const Region region = test::spiral(1.2);
+        const std::vector<Constraint> constraints{lock("bottom")};
+        const auto result = test::flattened({&region}, constraints);
+        CHECK(result.minimum.converged);
+        CHECK(measure_constraints({region}, result.minimum.charts, constraints)[0].kept);
+        CHECK(measure_distortion(region, result.minimum.charts[0].uv).border_crossings == 0);
+    }
+}
+
+}  // namespace lastflat

@@ -1,0 +1,126 @@
+#include "core/constrain/constraint_rows.h"
+
+#include <doctest/doctest.h>
+
+#include "core/measure/report.h"
+#include "tests/helpers/minimum.h"
+#include "tests/helpers/shapes.h"
+
+namespace lastflat {
+namespace {
+
+Constraint of(ConstraintKind kind, const std::string& curve = "") {
+    Constraint constraint;
+    constraint.kind = kind;
+    constraint.curve = curve;
+    return constraint;
+}
+
+struct Solved {
+    ConstrainedChart chart;
+    std::vector<ConstraintReport> reports;
+};
+
+Solved solve(const std::vector<Region>& regions, const std::vector<Constraint>& constraints) {
+    std::vector<const Region*> pointers;
+    for (const Region& region : regions) pointers.push_back(&region);
+    Solved solved{test::flattened(pointers, constraints), {}};
+    solved.reports = measure_constraints(regions, solved.chart.minimum.charts, constraints);
+    CHECK(solved.chart.minimum.converged);
+    for (const auto& report : solved.reports) CHECK(report.kept);
+    return solved;
+}
+
+}  // namespace
+
+TEST_SUITE("core/constrain/constraint_rows") {
+    TEST_CASE("a range binds only where the free curve would leave it") {
+        const Region region = test::saddle();
+        const Solved free = solve({region}, {});
+        const auto curves = measure_curves(region, free.chart.minimum.charts[0].uv, {});
+        const double percent = 100.0 * (curves[0].length_2d_mm / curves[0].length_3d_mm - 1.0);
+        REQUIRE(std::abs(percent) > 0.01);
+        Constraint wide = of(ConstraintKind::range, "bottom"), tight = wide;
+        wide.min_percent = -std::abs(percent) - 1.0;
+        wide.max_percent = std::abs(percent) + 1.0;
+        tight.min_percent = percent > 0 ? -1.0 : 0.4 * percent;
+        tight.max_percent = percent > 0 ? 0.4 * percent : 1.0;
+        const Solved inside = solve({region}, {wide}), held = solve({region}, {tight});
+        CHECK(inside.chart.minimum.energy ==
+              doctest::Approx(free.chart.minimum.energy).epsilon(1e-12));
+        CHECK(held.chart.minimum.energy > free.chart.minimum.energy * (1.0 + 1e-9));
+        const double reached = held.reports[0].reached / curves[0].length_3d_mm - 1.0;
+        CHECK(reached == doctest::Approx(0.004 * percent).epsilon(1e-6));
+    }
+
+    TEST_CASE("a range that pulls from one side is let go when it need not be held") {
+        // The start, a circle, is far outside; the minimum is inside.
+        const Region region = test::plane();
+        Constraint range = of(ConstraintKind::range, "bottom");
+        range.min_percent = -0.5;
+        range.max_percent = 0.5;
+        CHECK(solve({region}, {range}).chart.minimum.energy == doctest::Approx(1.0).epsilon(1e-10));
+    }
+
+    TEST_CASE("matched curves of two regions come out equally long, at the least cost") {
+        Region a = test::saddle(), b = test::dome();
+        a.name = "a";
+        b.name = "b";
+        Constraint match = of(ConstraintKind::match, "left");
+        match.region = "a";
+        match.with_curve = "right";
+        match.with_region = "b";
+        const auto groups = coupled_regions({a, b}, {match});
+        REQUIRE(groups.size() == 1);
+        const Solved solved = solve({a, b}, {match});
+        CHECK(solved.reports[0].residual_mm == doctest::Approx(0.0).epsilon(1e-9));
+        CHECK(coupled_regions({a, b}, {}).size() == 2);
+        match.region.clear();
+        CHECK_THROWS_AS((void)coupled_regions({a, a}, {match}), Error);
+    }
+
+    TEST_CASE("a straight curve lies on a line, and locked as well keeps its edges") {
+        const Region region = test::dome(10, 0.8);
+        const Solved solved =
+            solve({region}, {of(ConstraintKind::straight, "bottom"), lock("bottom")});
+        CHECK(solved.reports[0].reached < 1e-8);
+        const auto& uv = solved.chart.minimum.charts[0].uv;
+        CHECK((uv[0] - uv[10]).norm() ==
+              doctest::Approx(solved.reports[1].asked_max).epsilon(1e-9));
+    }
+
+    TEST_CASE("the total area is the surface's, or inside its range") {
+        const Region region = test::dome(10, 0.9);
+        Constraint area = of(ConstraintKind::total_area);
+        CHECK(solve({region}, {area}).reports[0].reached ==
+              doctest::Approx(surface_area(region)).epsilon(1e-9));
+        area.min_percent = 3.0;
+        area.max_percent = 4.0;
+        CHECK(solve({region}, {area}).reports[0].reached ==
+              doctest::Approx(1.03 * surface_area(region)).epsilon(1e-9));
+    }
+
+    TEST_CASE("pins put points in their places; one costs nothing") {
+        const Region region = test::saddle();
+        const double free = solve({region}, {}).chart.minimum.energy;
+        Constraint a = of(ConstraintKind::pin), b = a;
+        a.vertex = 0;
+        a.place = {12, -7};
+        b.vertex = 168;
+        b.place = {-30, 60};
+        CHECK(solve({region}, {a}).chart.minimum.energy == doctest::Approx(free).epsilon(1e-10));
+        const Solved two = solve({region}, {a, b});
+        CHECK((two.chart.minimum.charts[0].uv[168] - b.place).norm() < 1e-9);
+        CHECK(two.chart.minimum.energy > free);
+    }
+
+    TEST_CASE("two threads give the same bits as one") {
+        const Region region = test::dome(40, 0.8);
+        const std::vector<Constraint> constraints{lock("left"), lock("bottom")};
+        const auto one = test::flattened({&region}, constraints, OnConflict::fail, 1);
+        const auto two = test::flattened({&region}, constraints, OnConflict::fail, 2);
+        CHECK(one.minimum.charts[0].uv == two.minimum.charts[0].uv);
+    }
+}
+
+}  // namespace lastflat
