@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/constrain/closure.h"
 #include "core/numerics/tolerances.h"
 
 namespace lastflat {
@@ -43,12 +44,19 @@ public:
 
     ConstrainedChart run() {
         ConstrainedChart result;
-        result.minimum = solve(role_);
+        const auto relax = [&](std::size_t constraint) {
+            role_[constraint] = Role::soft;
+            result.relaxed.push_back(constraint);
+        };
+        while (const auto loop = open_loop(domain_, kept_rows(), constraints_)) {
+            if (demands_.on_conflict == OnConflict::fail) fail(*loop);
+            relax(least_important(loop->constraints));
+        }
+        result.minimum = solve(without_soft());
         while (!kept(result.minimum)) {
             const auto fighting = smallest_conflict();
             if (demands_.on_conflict == OnConflict::fail) fail(fighting);
-            role_[fighting.front()] = Role::soft;
-            result.relaxed.push_back(fighting.front());
+            relax(fighting.front());
             result.minimum = solve(without_soft());
         }
         if (!result.relaxed.empty()) pull_back(result.minimum);
@@ -134,6 +142,38 @@ private:
         }
         Minimum pulled = solve_from(minimum.charts, role_);
         if (kept(pulled)) minimum = std::move(pulled);
+    }
+
+    [[nodiscard]] std::vector<ConstraintRow> kept_rows() const {
+        std::vector<ConstraintRow> rows;
+        for (const ConstraintRow& row : rows_) {
+            if (role_[row.constraint] == Role::kept) rows.push_back(row);
+        }
+        return rows;
+    }
+
+    [[nodiscard]] std::size_t least_important(const std::vector<std::size_t>& fighting) const {
+        return *std::min_element(fighting.begin(), fighting.end(),
+                                 [&](std::size_t a, std::size_t b) {
+                                     return constraints_[a].priority < constraints_[b].priority;
+                                 });
+    }
+
+    [[noreturn]] void fail(const OpenLoop& loop) const {
+        std::vector<ConflictMember> members;
+        std::string names;
+        for (const std::size_t c : loop.constraints) {
+            members.push_back({json_pointer(constraints_[c].option), constraints_[c].title(),
+                               loop.gap_mm, loop.position});
+            names += (names.empty() ? "" : ", ") + constraints_[c].title();
+        }
+        throw Error(ErrorCode::constraints_infeasible,
+                    "region '" + domain_.regions.front()->name + "': " + names +
+                        " cannot all hold: " + loop.why +
+                        "; leave one out or let it give way (\"on_conflict\": \"relax\")")
+            .at_option(constraints_[loop.constraints.front()].option)
+            .at_position(loop.position)
+            .with_conflict(std::move(members));
     }
 
     [[noreturn]] void fail(const std::vector<std::size_t>& fighting) const {

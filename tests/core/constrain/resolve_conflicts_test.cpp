@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "core/constrain/closure.h"
 #include "core/measure/report.h"
 #include "tests/helpers/minimum.h"
 #include "tests/helpers/shapes.h"
@@ -88,6 +89,54 @@ TEST_SUITE("core/constrain/resolve_conflicts") {
         const auto result = test::flattened({&region}, constraints);
         for (const auto& report : measure_constraints({region}, result.minimum.charts, constraints))
             CHECK(report.kept);
+    }
+
+    TEST_CASE("loops that cannot close are found before any solve") {
+        const Region region = test::dome(6, 0.6);
+        const Domain domain({&region});
+        const std::vector<Constraint> border{lock("bottom"), lock("right"), lock("top"),
+                                             lock("left")};
+        const auto found = [&](const std::vector<Constraint>& constraints) {
+            return open_loop(domain, constraint_rows(domain, constraints), constraints);
+        };
+        CHECK_FALSE(found(border).has_value());
+
+        auto too_large = border;
+        too_large.emplace_back();
+        too_large.back().kind = ConstraintKind::total_area;
+        too_large.back().min_percent = too_large.back().max_percent = 60.0;
+        REQUIRE(found(too_large).has_value());
+        CHECK(found(too_large)->constraints.size() == 5);
+        too_large.back().min_percent = too_large.back().max_percent = 1.0;
+        CHECK_FALSE(found(too_large).has_value());
+
+        std::vector<Constraint> side{lock("bottom"), range("right", -95, -90),
+                                     range("top", -95, -90), range("left", -95, -90)};
+        CHECK_FALSE(found(side).has_value());
+        side.emplace_back();
+        side.back().kind = ConstraintKind::straight;
+        side.back().curve = "bottom";
+        REQUIRE(found(side).has_value());
+        CHECK(found(side)->gap_mm > 10.0);
+    }
+
+    TEST_CASE("a vertex whose neighbourhood is locked must close by itself") {
+        const Index centre = 24;  // of a grid of 6 x 6
+        const auto found = [&](Region region) {
+            std::vector<Constraint> constraints;
+            for (const Triangle& t : region.triangles) {
+                if (std::find(t.begin(), t.end(), centre) == t.end()) continue;
+                constraints.push_back(lock("triangle " + std::to_string(constraints.size())));
+                region.runs.push_back({constraints.back().curve, {t[0], t[1], t[2], t[0]}});
+            }
+            const Domain domain({&region});
+            return open_loop(domain, constraint_rows(domain, constraints), constraints);
+        };
+        CHECK_FALSE(found(test::plane(6)).has_value());
+        const auto open = found(test::dome(6, 0.6));
+        REQUIRE(open.has_value());
+        CHECK(open->why.find("do not close") != std::string::npos);
+        CHECK((open->position - test::dome(6, 0.6).position(centre)).norm() < 1e-12);
     }
 }
 

@@ -1,0 +1,221 @@
+#include "core/constrain/closure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "core/error.h"
+#include "core/numerics/tolerances.h"
+
+namespace lastflat {
+namespace {
+
+using Edge = std::pair<Index, Index>;
+
+std::string text_of(const char* format, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+/// Lengths that rows bound: each a set of edges whose lengths add up.
+struct BoundedEdges {
+    std::size_t constraint;
+    std::set<Edge> edges;
+    double least, most;
+};
+
+std::vector<BoundedEdges> bounded_edges(const std::vector<ConstraintRow>& rows) {
+    std::vector<BoundedEdges> result;
+    for (const ConstraintRow& row : rows) {
+        BoundedEdges bounded{row.constraint, {}, row.least, row.most};
+        const bool is_length = std::all_of(row.terms.begin(), row.terms.end(), [](const Term& t) {
+            return t.kind == TermKind::length && t.factor == 1.0;
+        });
+        if (!is_length) continue;
+        for (const Term& term : row.terms) bounded.edges.insert(std::minmax(term.a, term.b));
+        result.push_back(std::move(bounded));
+    }
+    return result;
+}
+
+/// What a set of edges may be long at most, if rows bound all of it.
+struct MostLength {
+    bool bounded = true;
+    double length = 0.0;
+    std::vector<std::size_t> constraints;
+};
+
+MostLength most_length(const std::vector<BoundedEdges>& bounds, std::set<Edge> edges) {
+    MostLength result;
+    for (const BoundedEdges& bound : bounds) {
+        if (!std::isfinite(bound.most)) continue;
+        std::size_t covered = 0;
+        for (const Edge& edge : bound.edges) covered += edges.erase(edge);
+        if (covered == 0) continue;
+        result.length += bound.most;
+        result.constraints.push_back(bound.constraint);
+    }
+    result.bounded = edges.empty();
+    return result;
+}
+
+class LoopCheck {
+public:
+    LoopCheck(const Domain& domain, const std::vector<ConstraintRow>& rows,
+              const std::vector<Constraint>& constraints)
+        : domain_(domain), rows_(rows), constraints_(constraints), bounds_(bounded_edges(rows)) {
+        for (const BoundedEdges& bound : bounds_) {
+            if (bound.edges.size() == 1 && bound.least == bound.most)
+                locked_.emplace(*bound.edges.begin(), bound.constraint);
+        }
+    }
+
+    std::optional<OpenLoop> run() const {
+        for (std::size_t r = 0; r < domain_.regions.size(); ++r) {
+            for (auto check : {&LoopCheck::hubs, &LoopCheck::straight_sides, &LoopCheck::areas}) {
+                if (auto found = (this->*check)(r)) return found;
+            }
+        }
+        return std::nullopt;
+    }
+
+private:
+    [[nodiscard]] OpenLoop loop(std::vector<std::size_t> constraints, double gap, Index vertex,
+                                std::string why) const {
+        std::sort(constraints.begin(), constraints.end());
+        constraints.erase(std::unique(constraints.begin(), constraints.end()), constraints.end());
+        return {std::move(constraints), gap, domain_.position(vertex), std::move(why)};
+    }
+
+    [[nodiscard]] std::set<Edge> border_edges(std::size_t r) const {
+        const auto& border = domain_.regions[r]->border;
+        std::set<Edge> edges;
+        for (std::size_t i = 0; i < border.size(); ++i) {
+            const auto [a, b] = std::minmax(border[i], border[(i + 1) % border.size()]);
+            edges.emplace(a + domain_.first[r], b + domain_.first[r]);
+        }
+        return edges;
+    }
+
+    struct Hub {
+        double angle = 0.0, spokes = 0.0;
+        int triangles = 0;
+        bool locked = true;
+        std::vector<std::size_t> constraints;
+    };
+
+    [[nodiscard]] std::optional<OpenLoop> hubs(std::size_t r) const {
+        const Region& region = *domain_.regions[r];
+        const auto on_border = border_mask(region);
+        std::map<Index, Hub> hubs;
+        if (locked_.empty()) return std::nullopt;
+        for (const Triangle& t : region.triangles) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                if (on_border[static_cast<std::size_t>(t[i])]) continue;
+                add_corner(region, domain_.first[r], t, i, hubs[t[i]]);
+            }
+        }
+        for (const auto& [v, hub] : hubs) {
+            const double gap = 2.0 * std::numbers::pi - hub.angle;
+            if (!hub.locked || std::abs(gap) <= 10.0 * tolerance::locked_length) continue;
+            const Index vertex = v + domain_.first[r];
+            return loop(hub.constraints, gap * hub.spokes / hub.triangles, vertex,
+                        "the locked edges around " + place(domain_.position(vertex)) +
+                            " do not close: their angles miss a full turn by " +
+                            text_of("%.3g degrees", gap * 180.0 / std::numbers::pi));
+        }
+        return std::nullopt;
+    }
+
+    void add_corner(const Region& region, Index first, const Triangle& t, std::size_t corner,
+                    Hub& hub) const {
+        if (!hub.locked) return;
+        const Index a = t[corner], b = t[(corner + 1) % 3], c = t[(corner + 2) % 3];
+        for (const Edge& edge : {Edge(a, b), Edge(b, c), Edge(c, a)}) {
+            const auto found = locked_.find(std::minmax(edge.first + first, edge.second + first));
+            hub.locked = hub.locked && found != locked_.end();
+            if (hub.locked) hub.constraints.push_back(found->second);
+        }
+        const Vec3 p = region.position(b) - region.position(a);
+        const Vec3 q = region.position(c) - region.position(a);
+        hub.angle += std::acos(std::clamp(p.normalized().dot(q.normalized()), -1.0, 1.0));
+        hub.spokes += p.norm();
+        ++hub.triangles;
+    }
+
+    [[nodiscard]] std::optional<OpenLoop> straight_sides(std::size_t r) const {
+        for (std::size_t c = 0; c < constraints_.size(); ++c) {
+            if (constraints_[c].kind != ConstraintKind::straight) continue;
+            for (const CurveRun& run : domain_.regions[r]->runs) {
+                if (run.curve != constraints_[c].curve) continue;
+                if (auto found = straight_side(r, c, run)) return found;
+            }
+        }
+        return std::nullopt;
+    }
+
+    [[nodiscard]] std::optional<OpenLoop> straight_side(std::size_t r, std::size_t c,
+                                                        const CurveRun& run) const {
+        std::set<Edge> side, rest = border_edges(r);
+        for (std::size_t i = 1; i < run.vertices.size(); ++i) {
+            const auto [a, b] = std::minmax(run.vertices[i - 1], run.vertices[i]);
+            side.emplace(a + domain_.first[r], b + domain_.first[r]);
+        }
+        for (const Edge& edge : side) {
+            if (rest.erase(edge) == 0) return std::nullopt;  // not a side of the border
+        }
+        double least = 0.0;
+        std::vector<std::size_t> fighting{c};
+        for (const BoundedEdges& bound : bounds_) {
+            if (!std::includes(side.begin(), side.end(), bound.edges.begin(), bound.edges.end()))
+                continue;
+            least += std::max(bound.least, 0.0);
+            fighting.push_back(bound.constraint);
+            for (const Edge& edge : bound.edges) side.erase(edge);
+        }
+        const MostLength most = most_length(bounds_, rest);
+        const double gap = least - most.length;
+        if (!most.bounded || gap <= tolerance::locked_length * least) return std::nullopt;
+        fighting.insert(fighting.end(), most.constraints.begin(), most.constraints.end());
+        return loop(std::move(fighting), gap, run.vertices.front() + domain_.first[r],
+                    "the straight side is longer than the other sides may be together, by " +
+                        text_of("%.3g mm", gap));
+    }
+
+    [[nodiscard]] std::optional<OpenLoop> areas(std::size_t r) const {
+        const MostLength perimeter = most_length(bounds_, border_edges(r));
+        if (!perimeter.bounded) return std::nullopt;
+        for (const ConstraintRow& row : rows_) {
+            if (constraints_[row.constraint].kind != ConstraintKind::total_area) continue;
+            if (domain_.region_of(row.vertex) != r || !(row.least > 0.0)) continue;
+            const double needed = std::sqrt(4.0 * std::numbers::pi * row.least * row.reference);
+            const double gap = needed - perimeter.length;
+            if (gap <= tolerance::locked_length * needed) continue;
+            auto fighting = perimeter.constraints;
+            fighting.push_back(row.constraint);
+            return loop(std::move(fighting), gap, row.vertex,
+                        "even a circle of that area has a longer border than the locks leave, by " +
+                            text_of("%.3g mm", gap));
+        }
+        return std::nullopt;
+    }
+
+    const Domain& domain_;
+    const std::vector<ConstraintRow>& rows_;
+    const std::vector<Constraint>& constraints_;
+    const std::vector<BoundedEdges> bounds_;
+    std::map<Edge, std::size_t> locked_;
+};
+
+}  // namespace
+
+std::optional<OpenLoop> open_loop(const Domain& domain, const std::vector<ConstraintRow>& rows,
+                                  const std::vector<Constraint>& constraints) {
+    return LoopCheck(domain, rows, constraints).run();
+}
+
+}  // namespace lastflat
