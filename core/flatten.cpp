@@ -71,13 +71,13 @@ void append(std::vector<T>& to, std::vector<T> from) {
 
 /// Charts at the least of an energy.
 Refined minimised(const Domain& domain, const std::vector<Chart>& starts, const Demands& demands,
-                  const FlattenOptions& options, const Progress& progress) {
-    ConstrainedChart best = least_distortion(domain, starts, demands, options.threads, progress);
+                  std::size_t threads, const Progress& progress) {
+    ConstrainedChart best = least_distortion(domain, starts, demands, threads, progress);
     return {std::move(best.minimum), std::move(best.relaxed), std::move(best.warnings)};
 }
 
 Refined isometric(const Domain& domain, const std::vector<Chart>& starts,
-                  const FlattenOptions& options, const Progress& progress) {
+                  const FlattenOptions& options, std::size_t threads, const Progress& progress) {
     std::vector<std::vector<double>> weights;
     for (const Region* region : domain.regions)
         weights.push_back(triangle_weights(*region, options.weights.zones));
@@ -87,23 +87,23 @@ Refined isometric(const Domain& domain, const std::vector<Chart>& starts,
         options.weights.even() ? static_cast<const IsotropicEnergy&>(even) : uneven;
     return minimised(domain, starts,
                      {options.constraints, energy, std::move(weights), options.on_conflict, true},
-                     options, progress);
+                     threads, progress);
 }
 
 /// The starts as they become the answer: at the least of their energy, or scaled as a whole.
 Refined refined(const Domain& domain, std::vector<Chart> charts, const FlattenOptions& options,
-                const Progress& progress) {
+                std::size_t threads, const Progress& progress) {
     const std::vector<Constraint> none;
     const bool mips = options.method.name == MethodName::mips;
     switch (options.method.name) {
-        case MethodName::isometric: return isometric(domain, charts, options, progress);
+        case MethodName::isometric: return isometric(domain, charts, options, threads, progress);
         case MethodName::green_lagrange:
-            return minimised(domain, charts, {none, GreenLagrange()}, options, progress);
+            return minimised(domain, charts, {none, GreenLagrange()}, threads, progress);
         default: break;
     }
     Refined result;
     if (mips) {
-        result = minimised(domain, charts, {none, Mips()}, options, progress);
+        result = minimised(domain, charts, {none, Mips()}, threads, progress);
         charts = std::move(result.minimum.charts);
     }
     result.minimum.charts.clear();
@@ -115,7 +115,7 @@ Refined refined(const Domain& domain, std::vector<Chart> charts, const FlattenOp
 }
 
 Refined refine(const std::vector<std::size_t>& group, const std::vector<Region>& regions,
-               std::vector<Start>& starts, const FlattenOptions& options,
+               std::vector<Start>& starts, const FlattenOptions& options, std::size_t threads,
                const Progress& progress) {
     std::vector<const Region*> parts;
     std::vector<Chart> charts;
@@ -125,7 +125,7 @@ Refined refine(const std::vector<std::size_t>& group, const std::vector<Region>&
         charts.push_back(std::move(starts[r].chart));
         append(warnings, std::move(starts[r].warnings));
     }
-    Refined result = refined(Domain(parts), std::move(charts), options, progress);
+    Refined result = refined(Domain(parts), std::move(charts), options, threads, progress);
     append(warnings, std::move(result.warnings));
     result.warnings = std::move(warnings);
     return result;
@@ -248,9 +248,11 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& options, Pro
     for (auto& group : coupled_regions(regions, options.constraints))
         groups.push_back({std::move(group), {}});
     std::vector<Fan> fans(regions.size());
+    const std::size_t inner_threads = std::max<std::size_t>(1, options.threads / groups.size());
     for_each_index(groups.size() + regions.size(), options.threads, [&](std::size_t task) {
         if (task < groups.size()) {
-            groups[task].refined = refine(groups[task].regions, regions, starts, options, progress);
+            groups[task].refined =
+                refine(groups[task].regions, regions, starts, options, inner_threads, progress);
         } else {
             fans[task - groups.size()] = fan_of(regions[task - groups.size()], options, progress);
         }

@@ -32,7 +32,8 @@ using Eigen::VectorXd;
 
 class ConstrainedNewton {
 public:
-    ConstrainedNewton(const Problem& problem, Distortion& distortion, const Progress& progress)
+    ConstrainedNewton(const Problem& problem, Distortion& distortion, const VectorXd& x,
+                      const Progress& progress)
         : rows_(problem.rows),
           compliance_(problem.compliance.empty() ? std::vector<double>(rows_.size(), 0.0)
                                                  : problem.compliance),
@@ -41,7 +42,7 @@ public:
           contact_(problem.contact ? std::make_optional<BorderContact>(problem.domain)
                                    : std::nullopt),
           system_(problem.domain, rows_, compliance_, distortion, contact_ ? &*contact_ : nullptr,
-                  problem.threads, progress),
+                  x, problem.threads, progress),
           multipliers_(VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()))),
           held_(rows_.size(), Held::not_held),
           releases_(rows_.size(), 0) {
@@ -307,12 +308,12 @@ Minimum minimise_distortion(const Problem& problem, const std::vector<Chart>& st
         Problem free{problem.domain, none, problem.energy};
         free.threads = problem.threads;
         free.contact = problem.contact;
-        ConstrainedNewton approach(free, distortion, progress);
+        ConstrainedNewton approach(free, distortion, x, progress);
         approach.run(x, approach_decrease, near_isometry);
         approach.report(result);
     }
     x = moved_to_pins(problem, x);
-    ConstrainedNewton newton(problem, distortion, progress);
+    ConstrainedNewton newton(problem, distortion, x, progress);
     result.converged = newton.run(x, 0.0, 0.0);
     newton.report(result);
     result.charts = problem.domain.charts(x);

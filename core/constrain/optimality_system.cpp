@@ -8,7 +8,6 @@
 #include <span>
 
 #include "core/error.h"
-#include "core/numerics/nested_dissection.h"
 #include "core/numerics/tolerances.h"
 
 namespace lastflat {
@@ -29,14 +28,16 @@ std::vector<Index> vertices_of(const ConstraintRow& row) {
     return vertices;
 }
 
-/// Places of the vertices for the dissection; the regions far from each other, so that the first
-/// planes run between them.
-Points3 spread_positions(const Domain& domain) {
-    Points3 positions;
+/// Places of the vertices for the dissection: flat, where a plane cuts a folded surface but once;
+/// the regions far from each other, so that the first planes run between them.
+Points2 spread_positions(const Domain& domain, const Eigen::VectorXd& x) {
+    Points2 positions;
     positions.reserve(at(domain.vertices()));
+    const double apart = 10.0 * x.cwiseAbs().maxCoeff();
     for (std::size_t r = 0; r < domain.regions.size(); ++r) {
-        const Vec3 offset(static_cast<double>(r) * 10.0 * tolerance::largest_coordinate_mm, 0, 0);
-        for (const Vec3& p : domain.regions[r]->positions) positions.emplace_back(p + offset);
+        const Vec2 offset(static_cast<double>(r) * apart, 0.0);
+        for (Index v = domain.first[r]; v < domain.first[r + 1]; ++v)
+            positions.emplace_back(x.segment<2>(2 * v) + offset);
     }
     return positions;
 }
@@ -55,8 +56,8 @@ Index common_block(const std::vector<UnknownBlock>& blocks, Index a, Index b, In
 
 OptimalitySystem::OptimalitySystem(const Domain& domain, const std::vector<ConstraintRow>& rows,
                                    const std::vector<double>& compliance, Distortion& distortion,
-                                   const BorderContact* contact, std::size_t threads,
-                                   const Progress& progress)
+                                   const BorderContact* contact, const Eigen::VectorXd& x,
+                                   std::size_t threads, const Progress& progress)
     : domain_(domain),
       rows_(rows),
       compliance_(compliance),
@@ -64,14 +65,16 @@ OptimalitySystem::OptimalitySystem(const Domain& domain, const std::vector<Const
       contact_(contact),
       threads_(threads),
       progress_(progress),
-      unknowns_(2 * domain.vertices()) {
+      unknowns_(2 * domain.vertices()),
+      positions_(spread_positions(domain, x)) {
     analyse();
 }
 
 void OptimalitySystem::analyse() {
-    matrix_ = pattern();
+    const VertexGraph graph = vertex_graph(domain_.vertices(), vertex_pairs());
+    matrix_ = pattern(graph);
     distortion_.bind(matrix_);
-    solver_.analyse(matrix_, elimination_blocks());
+    solver_.analyse(matrix_, elimination_blocks(graph));
 }
 
 void OptimalitySystem::prepare(const Eigen::VectorXd& x) {
@@ -111,38 +114,30 @@ std::vector<OptimalitySystem::VertexPair> OptimalitySystem::vertex_pairs() const
     return pairs;
 }
 
-/// The lower triangle's pattern, all values zero: a 2x2 block for every pair and vertex, a row for
-/// every constraint.
-SparseMatrix OptimalitySystem::pattern() const {
+/// The lower triangle's pattern, all values zero: a 2x2 block for every edge of the graph and every
+/// vertex, a row for every constraint.
+SparseMatrix OptimalitySystem::pattern(const VertexGraph& graph) const {
     const Index n = domain_.vertices();
     const auto m = static_cast<Index>(rows_.size());
-    std::vector<VertexPair> blocks = vertex_pairs();
-    for (Index v = 0; v < n; ++v) blocks.emplace_back(v, v);
-    std::sort(blocks.begin(), blocks.end());
-    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-    std::vector<VertexPair> in_rows;  // (vertex, row)
+    std::vector<std::vector<Index>> rows_at(at(n));
     for (Index k = 0; k < m; ++k) {
-        for (const Index v : vertices_of(rows_[at(k)])) in_rows.emplace_back(v, k);
+        for (const Index v : vertices_of(rows_[at(k)])) rows_at[at(v)].push_back(2 * n + k);
     }
-    std::sort(in_rows.begin(), in_rows.end());
     SparseMatrix matrix(2 * n + m, 2 * n + m);
-    matrix.reserve(static_cast<Eigen::Index>(4 * blocks.size() + 2 * in_rows.size()) + m);
-    std::size_t block = 0, in_row = 0;
+    matrix.reserve(static_cast<Eigen::Index>(2 * graph.neighbours.size()) + 4 * n + 8 * m);
     for (Index v = 0; v < n; ++v) {
-        std::size_t b = block, k = in_row;
         for (Index side = 0; side < 2; ++side) {
             const Index column = 2 * v + side;
             matrix.startVec(column);
-            for (b = block; b < blocks.size() && blocks[b].first == v; ++b) {
-                const Index w = blocks[b].second;
-                for (Index i = w == v ? side : 0; i < 2; ++i)
+            for (Index i = side; i < 2; ++i) matrix.insertBackByOuterInner(column, 2 * v + i) = 0.0;
+            for (Index e = graph.begin[at(v)]; e < graph.begin[at(v) + 1]; ++e) {
+                const Index w = graph.neighbours[at(e)];
+                if (w < v) continue;
+                for (Index i = 0; i < 2; ++i)
                     matrix.insertBackByOuterInner(column, 2 * w + i) = 0.0;
             }
-            for (k = in_row; k < in_rows.size() && in_rows[k].first == v; ++k)
-                matrix.insertBackByOuterInner(column, 2 * n + in_rows[k].second) = 0.0;
+            for (const Index row : rows_at[at(v)]) matrix.insertBackByOuterInner(column, row) = 0.0;
         }
-        block = b;
-        in_row = k;
     }
     for (Index k = 0; k < m; ++k) {
         matrix.startVec(2 * n + k);
@@ -154,9 +149,8 @@ SparseMatrix OptimalitySystem::pattern() const {
 
 /// Both coordinates of the dissection's vertices. A multiplier comes after all vertices of its
 /// row, in the block where the last of them are: before them its pivot would be next to nothing.
-std::vector<UnknownBlock> OptimalitySystem::elimination_blocks() const {
-    const auto dissection = nested_dissection(vertex_graph(domain_.vertices(), vertex_pairs()),
-                                              spread_positions(domain_));
+std::vector<UnknownBlock> OptimalitySystem::elimination_blocks(const VertexGraph& graph) const {
+    const auto dissection = nested_dissection(graph, positions_);
     std::vector<UnknownBlock> blocks(dissection.size());
     std::vector<Index> block_of(at(domain_.vertices()));
     for (std::size_t b = 0; b < dissection.size(); ++b) {

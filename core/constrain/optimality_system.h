@@ -6,6 +6,7 @@
 #include "core/constrain/border_contact.h"
 #include "core/constrain/constraint_rows.h"
 #include "core/numerics/multifrontal_ldlt.h"
+#include "core/numerics/nested_dissection.h"
 #include "core/parameterize/distortion.h"
 
 namespace lastflat {
@@ -22,9 +23,11 @@ class OptimalitySystem {
 public:
     /// All arguments must outlive the system. `compliance`: per row how far, mm, it gives way to a
     /// force of 1 mm; 0: it does not. `contact` may be null.
+    /// `x`: where the vertices lie, about.
     OptimalitySystem(const Domain& domain, const std::vector<ConstraintRow>& rows,
                      const std::vector<double>& compliance, Distortion& distortion,
-                     const BorderContact* contact, std::size_t threads, const Progress& progress);
+                     const BorderContact* contact, const Eigen::VectorXd& x, std::size_t threads,
+                     const Progress& progress);
 
     /// Makes room for contacts that are or may soon be near at x.
     void prepare(const Eigen::VectorXd& x);
@@ -47,8 +50,8 @@ private:
     using VertexPair = std::pair<Index, Index>;
     void analyse();
     [[nodiscard]] std::vector<VertexPair> vertex_pairs() const;
-    [[nodiscard]] SparseMatrix pattern() const;
-    [[nodiscard]] std::vector<UnknownBlock> elimination_blocks() const;
+    [[nodiscard]] SparseMatrix pattern(const VertexGraph& graph) const;
+    [[nodiscard]] std::vector<UnknownBlock> elimination_blocks(const VertexGraph& graph) const;
     /// Returns the mean of the Hessian's diagonal.
     double fill(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
                 const std::vector<Held>& held, HessianKind kind);
@@ -70,6 +73,7 @@ private:
     std::size_t threads_;
     const Progress& progress_;
     Index unknowns_;
+    Points2 positions_;    ///< for the elimination order
     SparseMatrix matrix_;  ///< lower triangle
     double regularisation_ = 0.0;
     std::vector<Index> regularised_;  ///< rows that have it

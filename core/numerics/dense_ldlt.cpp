@@ -10,7 +10,7 @@ namespace {
 /// A tile of the target: this many rows and columns stay in registers.
 constexpr std::size_t tile_rows = 8, tile_columns = 4;
 /// How many columns of a panel are factored one by one before the rest sees them.
-constexpr std::size_t strip = 16;
+constexpr std::size_t strip = 24;
 /// How many products a tile sums up in one go: two packed slivers stay in the first cache.
 constexpr std::size_t most_terms = 192;
 
@@ -58,8 +58,30 @@ using Quad [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
     }
 }
 
-using SubtractTiles = void (*)(const double*, const double*, std::size_t, std::size_t, std::size_t,
-                               double*, std::size_t);
+/// Columns begin .. end, which later ones have not seen yet.
+[[gnu::always_inline]] inline bool factor_strip(const Panel& panel, std::size_t begin,
+                                                std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j) {
+        double* column = panel.column(j);
+        const double pivot = column[j];
+        if (pivot == 0.0 || !std::isfinite(pivot)) return false;
+        const double inverse = 1.0 / pivot;
+        for (std::size_t c = j + 1; c < end; ++c) {
+            double* __restrict target = panel.column(c);
+            const double factor = column[c] * inverse;
+            for (std::size_t i = c; i < panel.rows; ++i) target[i] -= factor * column[i];
+        }
+        for (std::size_t i = j + 1; i < panel.rows; ++i) column[i] *= inverse;
+    }
+    return true;
+}
+
+/// The inner loops as one machine runs them best.
+struct Kernels {
+    void (*subtract_tiles)(const double*, const double*, std::size_t, std::size_t, std::size_t,
+                           double*, std::size_t);
+    bool (*factor_strip)(const Panel&, std::size_t, std::size_t);
+};
 
 void subtract_tiles_plain(const double* left, const double* right, std::size_t rows,
                           std::size_t columns, std::size_t terms, double* target,
@@ -67,21 +89,36 @@ void subtract_tiles_plain(const double* left, const double* right, std::size_t r
     subtract_tiles(left, right, rows, columns, terms, target, stride);
 }
 
+bool factor_strip_plain(const Panel& panel, std::size_t begin, std::size_t end) {
+    return factor_strip(panel, begin, end);
+}
+
 #if defined(__x86_64__)
-/// The same sums, four at once; no fused multiply-add, which would round differently.
+// The same sums, four at once; no fused multiply-add, which would round differently.
+
 [[gnu::target("avx2")]] void subtract_tiles_avx2(const double* left, const double* right,
                                                  std::size_t rows, std::size_t columns,
                                                  std::size_t terms, double* target,
                                                  std::size_t stride) {
     subtract_tiles(left, right, rows, columns, terms, target, stride);
 }
+
+[[gnu::target("avx2")]] bool factor_strip_avx2(const Panel& panel, std::size_t begin,
+                                               std::size_t end) {
+    return factor_strip(panel, begin, end);
+}
 #endif
 
-SubtractTiles fastest_subtract_tiles() {
+Kernels fastest_kernels() {
 #if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) return subtract_tiles_avx2;
+    if (__builtin_cpu_supports("avx2")) return {subtract_tiles_avx2, factor_strip_avx2};
 #endif
-    return subtract_tiles_plain;
+    return {subtract_tiles_plain, factor_strip_plain};
+}
+
+const Kernels& kernels() {
+    static const Kernels fastest = fastest_kernels();
+    return fastest;
 }
 
 /// Rows first .. rows of the panel's columns begin .. end, sliver by sliver, k by k, the missing
@@ -90,7 +127,8 @@ template <std::size_t sliver, class Factor>
 void pack(const Panel& panel, std::size_t first, std::size_t rows, std::size_t begin,
           std::size_t end, std::vector<double>& packed, const Factor& factor) {
     const std::size_t terms = end - begin;
-    packed.resize((rows + sliver - 1) / sliver * sliver * terms);
+    const std::size_t size = (rows + sliver - 1) / sliver * sliver * terms;
+    if (packed.size() < size) packed.resize(size);
     double* to = packed.data();
     for (std::size_t i = 0; i < rows; i += sliver) {
         const std::size_t height = std::min(sliver, rows - i);
@@ -107,33 +145,15 @@ void pack(const Panel& panel, std::size_t first, std::size_t rows, std::size_t b
 /// the panel's row `first`.
 void subtract_columns(const Panel& panel, std::size_t first, std::size_t columns, std::size_t begin,
                       std::size_t end, double* target, std::size_t stride, PackBuffers& buffers) {
-    static const SubtractTiles subtract = fastest_subtract_tiles();
     for (std::size_t k = begin; k < end; k += most_terms) {
         const std::size_t until = std::min(end, k + most_terms);
         pack<tile_rows>(panel, first, panel.rows - first, k, until, buffers.left,
                         [](std::size_t) { return 1.0; });
         pack<tile_columns>(panel, first, columns, k, until, buffers.right,
                            [&](std::size_t c) { return panel.column(c)[c]; });
-        subtract(buffers.left.data(), buffers.right.data(), panel.rows - first, columns, until - k,
-                 target, stride);
+        kernels().subtract_tiles(buffers.left.data(), buffers.right.data(), panel.rows - first,
+                                 columns, until - k, target, stride);
     }
-}
-
-/// Columns begin .. end, which later ones have not seen yet.
-bool factor_strip(const Panel& panel, std::size_t begin, std::size_t end) {
-    for (std::size_t j = begin; j < end; ++j) {
-        double* column = panel.column(j);
-        const double pivot = column[j];
-        if (pivot == 0.0 || !std::isfinite(pivot)) return false;
-        const double inverse = 1.0 / pivot;
-        for (std::size_t c = j + 1; c < end; ++c) {
-            double* target = panel.column(c);
-            const double factor = column[c] * inverse;
-            for (std::size_t i = c; i < panel.rows; ++i) target[i] -= factor * column[i];
-        }
-        for (std::size_t i = j + 1; i < panel.rows; ++i) column[i] *= inverse;
-    }
-    return true;
 }
 
 }  // namespace
@@ -141,7 +161,7 @@ bool factor_strip(const Panel& panel, std::size_t begin, std::size_t end) {
 bool factor_panel(const Panel& panel, PackBuffers& buffers) {
     for (std::size_t begin = 0; begin < panel.columns; begin += strip) {
         const std::size_t end = std::min(panel.columns, begin + strip);
-        if (!factor_strip(panel, begin, end)) return false;
+        if (!kernels().factor_strip(panel, begin, end)) return false;
         if (end < panel.columns) {
             subtract_columns(panel, end, panel.columns - end, begin, end, panel.column(end) + end,
                              panel.rows, buffers);

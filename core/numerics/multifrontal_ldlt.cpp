@@ -184,7 +184,10 @@ bool MultifrontalLdlt::run(std::size_t t, const double* matrix, const Progress& 
             if (task_of_[at(c)] == t) task.top -= update_size(c);
         }
         double* place = task.stack.data() + task.top;
-        std::copy_n(schur, update_size(f), place);
+        for (std::size_t j = 0; j < front.rows; ++j) {  // its lower triangle
+            const std::size_t first = j * front.rows + j;
+            std::copy_n(schur + first, front.rows - j, place + first);
+        }
         updates_[at(f)] = place;
         task.top += update_size(f);
     }
@@ -198,7 +201,8 @@ void MultifrontalLdlt::assemble(const Front& front, const double* matrix, double
     double* panel = values_.data() + front.panel;
     const std::size_t height = front.height();
     std::fill_n(panel, height * front.width(), 0.0);
-    std::fill_n(schur, front.rows * front.rows, 0.0);
+    for (std::size_t j = 0; j < front.rows; ++j)
+        std::fill_n(schur + j * front.rows + j, front.rows - j, 0.0);
     for (std::size_t e = front.entries_begin; e < front.entries_end; ++e) {
         const Entry& entry = entries_[e];
         panel[at(entry.column) * height + at(entry.row)] += matrix[entry.from];

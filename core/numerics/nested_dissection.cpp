@@ -19,7 +19,7 @@ std::size_t at(Index i) {
 
 class Dissector {
 public:
-    Dissector(const VertexGraph& graph, const Points3& positions)
+    Dissector(const VertexGraph& graph, const Points2& positions)
         : graph_(graph),
           positions_(positions),
           order_(at(graph.size())),
@@ -62,18 +62,18 @@ private:
         return static_cast<Index>(blocks_.size()) - 1;
     }
 
-    [[nodiscard]] Vec3 longest_direction(std::span<const Index> vertices) const {
-        Vec3 mean = Vec3::Zero();
+    [[nodiscard]] Vec2 longest_direction(std::span<const Index> vertices) const {
+        Vec2 mean = Vec2::Zero();
         for (const Index v : vertices) mean += positions_[at(v)];
         mean /= static_cast<double>(vertices.size());
-        Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+        Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
         for (const Index v : vertices) {
-            const Vec3 p = positions_[at(v)] - mean;
+            const Vec2 p = positions_[at(v)] - mean;
             covariance += p * p.transpose();
         }
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
         eigen.computeDirect(covariance);
-        return eigen.eigenvectors().col(2);
+        return eigen.eigenvectors().col(1);
     }
 
     /// Whether a vertex of `side` has a neighbour on the other side.
@@ -88,7 +88,7 @@ private:
         const auto begin = order_.begin() + static_cast<std::ptrdiff_t>(part.begin);
         const auto end = order_.begin() + static_cast<std::ptrdiff_t>(part.end);
         const auto middle = begin + (end - begin) / 2;
-        const Vec3 direction = longest_direction({begin, end});
+        const Vec2 direction = longest_direction({begin, end});
         for (auto v = begin; v != end; ++v) key_[at(*v)] = direction.dot(positions_[at(*v)]);
         std::nth_element(begin, middle, end, [&](Index a, Index b) {
             return std::pair(key_[at(a)], a) < std::pair(key_[at(b)], b);
@@ -115,7 +115,7 @@ private:
     }
 
     const VertexGraph& graph_;
-    const Points3& positions_;
+    const Points2& positions_;
     std::vector<Index> order_;
     std::vector<signed char> side_;
     std::vector<double> key_;
@@ -125,23 +125,31 @@ private:
 
 }  // namespace
 
-VertexGraph vertex_graph(Index vertices, std::vector<std::pair<Index, Index>> pairs) {
-    const std::size_t count = pairs.size();
-    for (std::size_t i = 0; i < count; ++i) pairs.emplace_back(pairs[i].second, pairs[i].first);
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    VertexGraph graph;
-    graph.begin.assign(at(vertices) + 1, 0);
+VertexGraph vertex_graph(Index vertices, const std::vector<std::pair<Index, Index>>& pairs) {
+    std::vector<Index> begin(at(vertices) + 2, 0);
     for (const auto& [v, w] : pairs) {
-        ++graph.begin[at(v) + 1];
-        graph.neighbours.push_back(w);
+        ++begin[at(v) + 2];
+        ++begin[at(w) + 2];
     }
-    for (std::size_t v = 0; v < at(vertices); ++v) graph.begin[v + 1] += graph.begin[v];
+    for (std::size_t v = 2; v < begin.size(); ++v) begin[v] += begin[v - 1];
+    std::vector<Index> neighbours(2 * pairs.size());
+    for (const auto& [v, w] : pairs) {
+        neighbours[at(begin[at(v) + 1]++)] = w;
+        neighbours[at(begin[at(w) + 1]++)] = v;
+    }
+    VertexGraph graph;
+    graph.begin.push_back(0);
+    for (std::size_t v = 0; v < at(vertices); ++v) {
+        const auto first = neighbours.begin() + begin[v], last = neighbours.begin() + begin[v + 1];
+        std::sort(first, last);
+        graph.neighbours.insert(graph.neighbours.end(), first, std::unique(first, last));
+        graph.begin.push_back(static_cast<Index>(graph.neighbours.size()));
+    }
     return graph;
 }
 
 std::vector<EliminationBlock> nested_dissection(const VertexGraph& graph,
-                                                const Points3& positions) {
+                                                const Points2& positions) {
     return Dissector(graph, positions).run();
 }
 

@@ -1,4 +1,4 @@
-// An elimination order of little fill for graphs that lie in space.
+// An elimination order of little fill for graphs that lie in the plane.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,10 @@ struct VertexGraph {
     [[nodiscard]] Index size() const { return static_cast<Index>(begin.size()) - 1; }
 };
 
-/// The graph of these pairs, each counted once, in both directions.
-[[nodiscard]] VertexGraph vertex_graph(Index vertices, std::vector<std::pair<Index, Index>> pairs);
+/// The graph of these pairs, in both directions; a pair may be given more than once. Neighbours
+/// ascend.
+[[nodiscard]] VertexGraph vertex_graph(Index vertices,
+                                       const std::vector<std::pair<Index, Index>>& pairs);
 
 /// Vertices that are eliminated together. Blocks of different branches share no edge.
 struct EliminationBlock {
@@ -22,13 +24,13 @@ struct EliminationBlock {
     std::vector<Index> vertices;
 };
 
-/// Splits the graph again and again by a plane across its longest direction; the vertices on the
-/// plane come after those on its sides.
+/// Splits the graph again and again by a line across its longest direction; the vertices on the
+/// line come after those on its sides.
 ///
-/// Paper: [george-1973]; the planes instead of grid lines: [heath-1995].
+/// Paper: [george-1973]; any lines instead of the grid's: [heath-1995].
 /// In:    per vertex its place: neighbours should be near each other.
 /// Out:   every vertex in one block; blocks come after their children.
 [[nodiscard]] std::vector<EliminationBlock> nested_dissection(const VertexGraph& graph,
-                                                              const Points3& positions);
+                                                              const Points2& positions);
 
 }  // namespace lastflat

@@ -12,14 +12,14 @@ namespace {
 
 struct Grid {
     VertexGraph graph;
-    Points3 positions;
+    Points2 positions;
     std::vector<std::pair<Index, Index>> edges;
 };
 
 Grid grid(Index side) {
     Grid result;
     for (Index v = 0; v < side * side; ++v) {
-        result.positions.emplace_back(v % side, v / side, 0.0);
+        result.positions.emplace_back(v % side, v / side);
         if ((v + 1) % side != 0) result.edges.emplace_back(v, v + 1);
         if (v + side < side * side) result.edges.emplace_back(v, v + side);
     }
