@@ -21,6 +21,8 @@ constexpr double near_isometry = 1.05;
 /// The approach ends when a step promises less than this share of the energy.
 constexpr double approach_decrease = 1e-3;
 constexpr int max_iterations = 300;
+/// Below this sum of projected gradient and error the last factorization may serve further steps.
+constexpr double nearly_optimal = 1e-4;
 /// An inequality that was let go so often stays: it would come and go forever.
 constexpr int most_releases = 8;
 /// Constraints that contradict each other pull with forces beyond this many times the size of the
@@ -59,13 +61,13 @@ public:
         while (iterations_ < max_iterations) {
             if (energy_ < enough * distortion_.total_area()) return true;
             const bool settled = !update_held();
-            if (settled && projected_gradient_ <= tolerance::projected_gradient &&
-                worst_error_ <= tolerance::solver_length)
-                return true;
+            if (settled && is_optimal()) return true;
             progress_.check();
             const Step step = take_step(x);
             if (step.promised < decrease * energy_) return true;
             if (hopeless()) return false;
+            if (step.length == 1.0 && projected_gradient_ + worst_error_ <= nearly_optimal)
+                reuse_factor(x);
             if (step.length == 0.0) return projected_gradient_ <= tolerance::stalled_gradient;
         }
         return false;
@@ -176,9 +178,10 @@ private:
                 now = Held::not_held;
                 multipliers_[i] = 0.0;
                 ++releases_[k];
+            } else if (const double error = rows_[k].violation(values_[i]);
+                       std::abs(error) > tolerance::solver_length * rows_[k].reference) {
+                now = error > 0.0 ? Held::by_most : Held::by_least;
             }
-            if (values_[i] > rows_[k].most) now = Held::by_most;
-            if (values_[i] < rows_[k].least) now = Held::by_least;
             changed = changed || now != held_[k];
             held_[k] = now;
         }
@@ -214,6 +217,42 @@ private:
         move_to(x);
         near_ = t == 1.0;
         return {-0.5 * slope, t};
+    }
+
+    [[nodiscard]] bool is_optimal() const {
+        return projected_gradient_ <= tolerance::projected_gradient &&
+               worst_error_ <= tolerance::solver_length;
+    }
+
+    /// Further full steps with the last factor, for as long as each brings the optimum nearer by
+    /// much (the chord method). They correct what is left of the gradient, so that the old matrix
+    /// tilts nothing.
+    void reuse_factor(VectorXd& x) {
+        constexpr double much = 0.1;
+        while (!is_optimal()) {
+            const double before = projected_gradient_ + worst_error_;
+            const VectorXd start = x, multipliers = multipliers_;
+            VectorXd forces = gradient_;
+            system_.add_forces(x, multipliers_, forces);
+            VectorXd errors = residual(values_);
+            for (std::size_t k = 0; k < rows_.size(); ++k) {
+                if (soft(k)) errors[static_cast<Eigen::Index>(k)] = 0.0;  // its force is its error
+            }
+            const VectorXd solution = system_.solve(-forces, -errors);
+            x += solution.head(x.size());
+            if (reaches(start, x) && std::isfinite(distortion_.value(x))) {
+                multipliers_ += solution.tail(values_.size());
+                move_to(x);
+                if (projected_gradient_ + worst_error_ <= much * before) {
+                    ++iterations_;
+                    continue;
+                }
+            }
+            x = start;
+            multipliers_ = multipliers;
+            move_to(x);
+            return;
+        }
     }
 
     /// Moves x along d as far as the merit function falls; returns the step length.

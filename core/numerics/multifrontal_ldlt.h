@@ -22,9 +22,9 @@ struct UnknownBlock {
 /// Paper: [duff-1983], [liu-1992]; quasi-definite matrices need no pivoting: [vanderbei-1995].
 class MultifrontalLdlt {
 public:
-    /// `lower`: the lower triangle, compressed; only its pattern matters, and later matrices have the same.
-    /// `blocks`: every unknown once, children before parents; blocks of different branches share
-    /// no entry.
+    /// `lower`: the lower triangle, compressed; only its pattern matters, and later matrices have
+    /// the same. `blocks`: every unknown once, children before parents; blocks of different
+    /// branches share no entry.
     void analyse(const SparseMatrix& lower, const std::vector<UnknownBlock>& blocks);
 
     /// Factors a matrix of the analysed pattern. False if a pivot vanishes.

@@ -84,16 +84,45 @@ private:
         return false;
     }
 
-    void split(const Part& part) {
-        const auto begin = order_.begin() + static_cast<std::ptrdiff_t>(part.begin);
-        const auto end = order_.begin() + static_cast<std::ptrdiff_t>(part.end);
-        const auto middle = begin + (end - begin) / 2;
-        const Vec2 direction = longest_direction({begin, end});
+    using Place = std::vector<Index>::iterator;
+
+    /// Sorts a part into its halves along a direction and marks them.
+    void halve(Place begin, Place middle, Place end, const Vec2& direction) {
         for (auto v = begin; v != end; ++v) key_[at(*v)] = direction.dot(positions_[at(*v)]);
         std::nth_element(begin, middle, end, [&](Index a, Index b) {
             return std::pair(key_[at(a)], a) < std::pair(key_[at(b)], b);
         });
         for (auto v = begin; v != end; ++v) side_[at(*v)] = v < middle ? 0 : 1;
+    }
+
+    /// Halves a part across its longest direction, or at a slant to it where that leaves a shorter
+    /// wall: on regular meshes the walls follow the edges.
+    void halve_best(Place begin, Place middle, Place end) {
+        constexpr std::ptrdiff_t worth_trying = 64;
+        const Vec2 longest = longest_direction({begin, end}), across(-longest.y(), longest.x());
+        if (end - begin < worth_trying) return halve(begin, middle, end, longest);
+        Vec2 best = longest;
+        std::ptrdiff_t least = end - begin;
+        for (const double slant : {0.0, 0.4, -0.4}) {
+            const Vec2 direction = longest + slant * across;
+            halve(begin, middle, end, direction);
+            const auto wall = [&](signed char side) {
+                return [this, side](Index v) { return faces_across(v, side); };
+            };
+            const std::ptrdiff_t length = std::min(std::count_if(begin, middle, wall(0)),
+                                                   std::count_if(middle, end, wall(1)));
+            if (length >= least) continue;
+            least = length;
+            best = direction;
+        }
+        halve(begin, middle, end, best);
+    }
+
+    void split(const Part& part) {
+        const auto begin = order_.begin() + static_cast<std::ptrdiff_t>(part.begin);
+        const auto end = order_.begin() + static_cast<std::ptrdiff_t>(part.end);
+        const auto middle = begin + (end - begin) / 2;
+        halve_best(begin, middle, end);
         const auto inner = [&](signed char side) {
             return [this, side](Index v) { return !faces_across(v, side); };
         };

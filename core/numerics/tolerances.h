@@ -13,11 +13,11 @@ inline constexpr double largest_coordinate_mm = 1e6;
 /// A locked length that is off by more than this share of itself has not been kept
 /// (design: pass at 1e-6). The solver aims at `solver_length`.
 inline constexpr double locked_length = 1e-6;
-inline constexpr double solver_length = 1e-11;
+inline constexpr double solver_length = 1e-10;
 
 /// Newton's method has converged when the projected gradient (see `Minimum`) is below this; its
 /// round-off is about 1e-14.
-inline constexpr double projected_gradient = 1e-10;
+inline constexpr double projected_gradient = 1e-9;
 /// Where no step lowers the energy any more round-off hides the rest (needles, circles shrunk to
 /// points); above this it was not round-off.
 inline constexpr double stalled_gradient = 1e-7;

@@ -52,7 +52,8 @@ struct Subject {
 /// The ratios that the project promises, against CGAL in the same run, as Markdown.
 [[nodiscard]] std::string speed(int runs);
 
-/// mean_value and one geodesic run from 1k to `largest` triangles: time, peak memory.
+/// mean_value, one geodesic run and isometric with two sides locked from 1k to `largest` triangles:
+/// time, peak memory.
 [[nodiscard]] std::string scaling(int largest);
 
 }  // namespace lastflat::bench

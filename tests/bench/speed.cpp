@@ -6,7 +6,9 @@
 #include <cstdio>
 
 #include "core/border/convex_border.h"
+#include "core/constrain/resolve_conflicts.h"
 #include "core/geodesic/geodesic_centre.h"
+#include "core/measure/report.h"
 #include "core/parameterize/fixed_border.h"
 #include "core/parameterize/start.h"
 #include "tests/bench/bench.h"
@@ -49,6 +51,33 @@ std::string maps(const std::string& name, const Region& region, int runs) {
                region.positions.size(), own, peer, peer / own, fan, fan / plain);
 }
 
+/// Start to optimum, as a job does it.
+Minimum isometric(const Region& region, const std::vector<Constraint>& constraints,
+                  std::size_t threads) {
+    const Start start = start_chart(region, locked_border_edges(region, constraints), {});
+    const Domain domain({&region});
+    const SymmetricDirichlet energy;
+    return least_distortion(domain, {start.chart},
+                            {constraints, energy, {}, OnConflict::fail, true}, threads, Progress())
+        .minimum;
+}
+
+std::string optima(const Subject& subject, int runs) {
+    const Minimum best = isometric(subject.region, subject.constraints, 1);
+    peers::CgalMesh cgal(subject.region);
+    Points2 theirs;
+    const auto [one, peer] = medians(
+        runs, [&] { (void)isometric(subject.region, subject.constraints, 1); },
+        [&] { theirs = cgal.arap(1000); });
+    const auto [two, free] = medians(
+        runs, [&] { (void)isometric(subject.region, subject.constraints, 2); },
+        [&] { (void)isometric(subject.region, {}, 1); });
+    const double sd = measure_distortion(subject.region, theirs).symmetric_dirichlet;
+    return row("| %s | %zu | %.1f | %.1f | %.1f | %d | %.7f | %.1e | %.0f | %.7f | %.1f |\n",
+               subject.name.c_str(), subject.region.triangles.size(), one, two, free,
+               best.iterations, best.energy, best.worst_error, peer, sd, peer / one);
+}
+
 std::string centres(const std::string& name, const Region& region) {
     const ExactGeodesics geodesics(region);
     const GeodesicCentre centre = geodesic_centre(region, geodesics, Progress());
@@ -61,24 +90,33 @@ std::string centres(const std::string& name, const Region& region) {
 }
 
 /// Runs the work in a child process; its peak memory in MiB, beside what it takes to start.
+/// `count`, which the work may set, comes back from the child.
 template <class Work>
-std::pair<double, double> time_and_memory(const Work& work) {
+std::pair<double, double> time_and_memory(const Work& work, int& count) {
     int channel[2];
     if (pipe(channel) != 0) return {NAN, NAN};
     const pid_t child = fork();
     if (child == 0) {
         const double ms = milliseconds(work);
         if (write(channel[1], &ms, sizeof ms) != sizeof ms) _exit(1);
+        if (write(channel[1], &count, sizeof count) != sizeof count) _exit(1);
         _exit(0);
     }
     close(channel[1]);
     double ms = NAN;
-    const bool answered = read(channel[0], &ms, sizeof ms) == sizeof ms;
+    const bool answered = read(channel[0], &ms, sizeof ms) == sizeof ms &&
+                          read(channel[0], &count, sizeof count) == sizeof count;
     close(channel[0]);
     rusage usage{};
     int status = 0;
     wait4(child, &status, 0, &usage);
     return {answered ? ms : NAN, static_cast<double>(usage.ru_maxrss) / 1024.0};
+}
+
+template <class Work>
+std::pair<double, double> time_and_memory(const Work& work) {
+    int unused = 0;
+    return time_and_memory(work, unused);
 }
 
 }  // namespace
@@ -96,6 +134,12 @@ std::string speed(int runs) {
     text += maps("wavy square", patch(17000), runs);
     text += maps("wavy square", patch(50000), runs);
     text +=
+        "\n| half, locked by edges | triangles | isometric, ms | two threads | free | steps | sd | "
+        "worst locked edge, relative | CGAL ARAP, ms | its sd | ARAP / isometric |\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    for (const Subject& subject : subjects(""))
+        if (!subject.constraints.empty()) text += optima(subject, runs);
+    text +=
         "\n| disk | triangles | runs for the exact centre | centre, ms | one run, ms |\n"
         "| --- | --- | --- | --- | --- |\n";
     text += centres("face", test::face());
@@ -108,7 +152,9 @@ std::string speed(int runs) {
 std::string scaling(int largest) {
     std::string text =
         "| triangles | mean_value, ms | per triangle, us | peak, MiB | geodesic run, ms | per "
-        "triangle, us | peak, MiB |\n| --- | --- | --- | --- | --- | --- | --- |\n";
+        "triangle, us | peak, MiB | isometric, ms | per triangle, us | Newton steps | peak, MiB "
+        "|\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    const std::vector<Constraint> locks{lock("left"), lock("right")};
     for (const int triangles : {1'000, 3'000, 10'000, 30'000, 100'000, 300'000, 1'000'000}) {
         if (triangles > largest) break;
         const Region region = patch(triangles / 2);
@@ -119,8 +165,12 @@ std::string scaling(int largest) {
             (void)ExactGeodesics(region).from_vertex(
                 static_cast<Index>(region.positions.size() / 2), Progress());
         });
-        text += row("| %zu | %.1f | %.2f | %.0f | %.1f | %.2f | %.0f |\n", region.triangles.size(),
-                    map, 1000.0 * map / n, map_peak, run, 1000.0 * run / n, run_peak);
+        int steps = 0;
+        const auto [best, best_peak] =
+            time_and_memory([&] { steps = isometric(region, locks, 2).iterations; }, steps);
+        text += row("| %zu | %.1f | %.2f | %.0f | %.1f | %.2f | %.0f | %.0f | %.1f | %d | %.0f |\n",
+                    region.triangles.size(), map, 1000.0 * map / n, map_peak, run, 1000.0 * run / n,
+                    run_peak, best, 1000.0 * best / n, steps, best_peak);
     }
     return text;
 }
