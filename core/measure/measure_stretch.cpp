@@ -8,6 +8,8 @@ namespace lastflat {
 namespace {
 
 constexpr std::size_t most_places = 10;
+/// Less is round-off.
+constexpr double noticed_percent = 1e-6;
 /// Places nearer to each other than this share of the region's size are one.
 constexpr double apart = 0.05;
 
@@ -46,7 +48,7 @@ std::vector<WorstPlace> worst_places(const Region& region, std::vector<Leather> 
     });
     std::vector<WorstPlace> places;
     for (const Leather& l : leather) {
-        if (places.size() == most_places) break;
+        if (places.size() == most_places || std::abs(l.worst()) < noticed_percent) break;
         const Triangle& t = region.triangles[static_cast<std::size_t>(l.triangle)];
         const Vec3 middle =
             (region.position(t[0]) + region.position(t[1]) + region.position(t[2])) / 3.0;

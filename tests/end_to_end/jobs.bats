@@ -7,7 +7,7 @@ setup_file() {
     require_program
     make_sample
     make_bumpy 330 "$BATS_FILE_TMPDIR/slow.obj"    # 216 000 triangles: most of a minute
-    make_bumpy 120 "$BATS_FILE_TMPDIR/second.obj"  # 28 000 triangles: some seconds
+    make_bumpy 260 "$BATS_FILE_TMPDIR/second.obj"  # 135 000 triangles: some seconds
 }
 setup() {
     sample=$BATS_FILE_TMPDIR/sample
