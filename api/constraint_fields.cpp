@@ -1,6 +1,7 @@
 #include "api/constraint_fields.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lastflat::api {
 namespace {
@@ -38,8 +39,9 @@ void read_bounds(ObjectReader& reader, ConstraintRequest& constraint) {
 /// A vertex of the file, by its id or by the name of a point.
 std::optional<std::int32_t> read_vertex(ObjectReader& reader, const RequestLimits& limits,
                                         const FlattenRequest& request) {
-    if (const auto vertex = reader.find("vertex")) return vertex->index();
-    const auto point = reader.find("point");
+    const auto vertex = reader.find("vertex"), point = reader.find("point");
+    if (vertex && point) point->fail("is given beside \"vertex\": one of them is enough");
+    if (vertex) return vertex->index();
     if (!point) return std::nullopt;
     const std::string name = point->text(limits.name_bytes);
     const auto found = std::find_if(request.points.begin(), request.points.end(),
@@ -95,10 +97,20 @@ ConstraintRequest read_constraint(const Field& field, const RequestLimits& limit
         case ConstraintForm::pin: read_pin(reader, limits, request, constraint); break;
     }
     constraint.region = region_or_empty(reader, "region", limits);
-    if (const auto priority = reader.find("priority"))
-        constraint.priority = static_cast<std::int32_t>(priority->number(-1000, 1000));
+    if (const auto priority = reader.find("priority")) {
+        const double value = priority->number(-1000, 1000);
+        if (value != std::floor(value)) priority->fail("must be a whole number");
+        constraint.priority = static_cast<std::int32_t>(value);
+    }
     reader.finish();
     return constraint;
+}
+
+/// Whether both bind the same thing in the same way, in the same region or in every one.
+bool is_repeat(const ConstraintRequest& a, const ConstraintRequest& b) {
+    const bool same_place = a.region == b.region || a.region.empty() || b.region.empty();
+    return a.form == b.form && a.curve == b.curve && a.vertex == b.vertex &&
+           a.with_curve == b.with_curve && a.with_region == b.with_region && same_place;
 }
 
 void read_list(const char* name, bool locks, ObjectReader& reader, const RequestLimits& limits,
@@ -109,14 +121,10 @@ void read_list(const char* name, bool locks, ObjectReader& reader, const Request
     for (const Field& item : list->items(limits.list)) {
         ConstraintRequest constraint = read_constraint(item, limits, request, locks);
         constraint.path = {name, std::to_string(place++)};
-        const bool twice = constraint.form == ConstraintForm::lock &&
-                           std::any_of(request.constraints.begin(), request.constraints.end(),
-                                       [&](const ConstraintRequest& c) {
-                                           return c.form == ConstraintForm::lock &&
-                                                  c.curve == constraint.curve &&
-                                                  c.region == constraint.region;
-                                       });
-        if (twice) item.fail("locks the curve '" + constraint.curve + "' a second time");
+        for (const ConstraintRequest& earlier : request.constraints) {
+            if (is_repeat(constraint, earlier))
+                item.fail("asks again what " + earlier.path[0] + " " + earlier.path[1] + " asks");
+        }
         request.constraints.push_back(std::move(constraint));
     }
 }

@@ -23,7 +23,7 @@ enum class ErrorCode {
     region_invalid,          ///< a region cannot be told from the request
     region_not_disk,         ///< a region is not a disk
     method_failed,           ///< the method has no answer on this region (folded, singular)
-    constraints_infeasible,  ///< the locks cannot all hold
+    constraints_infeasible,  ///< the constraints cannot all hold
     border_crosses,          ///< the flat border crosses itself
     solver_failed,           ///< a linear system could not be solved
     unsupported_request,     ///< part of the contract, but not in this version

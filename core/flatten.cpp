@@ -44,6 +44,19 @@ void warn_of_absent_curves(const Curves& curves, const std::vector<Region>& regi
     }
 }
 
+/// A vertex that was welded to another is named by that one.
+void name_welded_vertices(const SurfaceMesh& surface, FlattenOptions& options) {
+    const auto rename = [&](Index& vertex) {
+        if (surface.is_on_surface(vertex))
+            vertex = surface.welded_to[static_cast<std::size_t>(vertex)];
+    };
+    for (Constraint& constraint : options.constraints) rename(constraint.vertex);
+    for (Zone& zone : options.weights.zones) {
+        rename(zone.vertex);
+        for (Index& vertex : zone.vertices) rename(vertex);
+    }
+}
+
 /// One region of the result, measured and found sound.
 FlatRegion certified(const Region& region, const Chart& chart, const FlattenOptions& options,
                      std::vector<Warning>& warnings) {
@@ -52,8 +65,9 @@ FlatRegion certified(const Region& region, const Chart& chart, const FlattenOpti
                     trace_outline(region, chart),
                     measure_distortion(region, chart.uv),
                     measure_curves(region, chart.uv, options.constraints),
-                    measure_stretch(region, chart.uv, options.material)};
+                    {}};
     check_result(region, chart.uv, options.method.name, flat.metrics, warnings);
+    flat.stretch = measure_stretch(region, chart.uv, options.material);
     return flat;
 }
 
@@ -212,8 +226,9 @@ void finish(const std::vector<Region>& regions, std::vector<Group> groups, std::
 
 }  // namespace
 
-FlattenResult flatten(std::string_view model, const FlattenOptions& options, Progress& progress) {
+FlattenResult flatten(std::string_view model, const FlattenOptions& asked, Progress& progress) {
     FlattenResult result;
+    FlattenOptions options = asked;
     result.method = options.method.name;
     result.asked = options.constraints;
     result.draw_fan = options.draw_fan;
@@ -226,11 +241,13 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& options, Pro
     progress.reach(Stage::weld, 0.1);
     SurfaceMesh surface = weld(raw, options.weld);
     result.warnings = std::move(surface.warnings);
+    name_welded_vertices(surface, options);
 
     progress.reach(Stage::cut, 0.2);
     const Curves curves = locate_curves(surface, options.curves);
     const auto regions = cut_into_regions(surface, curves, options.cut);
     check_constraints(options.constraints, curves, regions);
+    check_zones(options.weights.zones, curves, regions);
     warn_of_absent_curves(curves, regions, result.warnings);
     result.timing.cut_ms = watch.lap();
 

@@ -67,7 +67,8 @@ struct FlattenResult {
 /// Flattens a last.
 ///
 /// In:     the bytes of a model (see `load_model`), the shoe-maker's constraints.
-/// Out:    every chosen region, flat; no triangle flipped; with `isometric` every lock kept to
+/// Out:    every chosen region, flat; no triangle flipped; with `isometric` every constraint kept
+/// to
 ///         `tolerance::locked_length` and no border that crosses itself. The same bytes and options
 ///         give the same result, whatever `threads` is.
 /// Throws: Error, of any code; nothing is returned in part.

@@ -134,16 +134,17 @@ double meeting_time(const std::array<Vec2, 3>& from, const std::array<Vec2, 3>& 
 }  // namespace
 
 BorderContact::BorderContact(const Domain& domain)
-    : weight_(static_cast<std::size_t>(domain.vertices()), 0.0) {
+    : domain_(domain), weight_(static_cast<std::size_t>(domain.vertices()), 0.0) {
     double total = 0.0;
     std::size_t edges = 0;
     for (std::size_t r = 0; r < domain.regions.size(); ++r) {
         const auto lengths = border_lengths(*domain.regions[r]);
-        Loop loop{domain.regions[r]->border, {}};
+        Loop loop{domain.regions[r]->border, {0.0}, {}};
         for (Index& v : loop.vertices) v += domain.first[r];
         for (std::size_t i = 0; i < lengths.size(); ++i) {
             const double before = lengths[(i + lengths.size() - 1) % lengths.size()];
             loop.lengths.push_back(0.5 * (before + lengths[i]));
+            loop.along.push_back(loop.along.back() + lengths[i]);
             total += lengths[i];
             ++edges;
         }
@@ -157,7 +158,7 @@ BorderContact::BorderContact(const Domain& domain)
     }
 }
 
-/// Calls visit(pair) for the vertices and edges that may come nearer than `distance` on the way.
+/// Calls visit(loop, vertex, edge) for those that may come nearer than `distance` on the way.
 template <class Visit>
 void BorderContact::for_candidates(const Eigen::VectorXd& x, const Eigen::VectorXd& to,
                                    double distance, const Visit& visit) const {
@@ -169,45 +170,69 @@ void BorderContact::for_candidates(const Eigen::VectorXd& x, const Eigen::Vector
             paths[i].extend(point(to, loop.vertices[i]));
         }
         for (std::size_t i = 0; i < n; ++i) edges[i] = paths[i].merged(paths[(i + 1) % n]);
-        const BoxTree tree(edges);
+        const BoxTree<Box2> tree(edges);
         for (std::size_t i = 0; i < n; ++i) {
             Box2 box = paths[i];
             box.min().array() -= distance;
             box.max().array() += distance;
-            tree.for_each_meeting(box, [&](Index e) {
+            tree.find(box, [&](Index e) {
                 const std::size_t first = static_cast<std::size_t>(e), second = (first + 1) % n;
-                if (first == i || second == i) return;
-                visit(ContactPair{loop.vertices[i], loop.vertices[first], loop.vertices[second]});
+                if (first != i && second != i) visit(loop, i, first);
+                return false;
             });
         }
     }
 }
 
+double BorderContact::clearance_of(const Loop& loop, std::size_t vertex, std::size_t edge) const {
+    const std::size_t next = (edge + 1) % loop.vertices.size();
+    const double round = loop.along.back();
+    const auto way = [&](std::size_t other) {
+        const double direct = std::abs(loop.along[vertex] - loop.along[other]);
+        return std::min(direct, round - direct);
+    };
+    const double along = std::min(way(edge), way(next));
+    const Vec3& p = domain_.position(loop.vertices[vertex]);
+    const Vec3& a = domain_.position(loop.vertices[edge]);
+    const Vec3 e = domain_.position(loop.vertices[next]) - a;
+    const double t = std::clamp((p - a).dot(e) / e.squaredNorm(), 0.0, 1.0);
+    const double across = (p - a - t * e).norm();
+    double clearance = std::min(clearance_, 0.25 * along);
+    constexpr double slit = 1e-3;  // nearer on the last than this share: two sides of one curve
+    if (across > slit * clearance) clearance = std::min(clearance, 0.5 * across);
+    return clearance;
+}
+
 std::vector<ContactPair> BorderContact::near_pairs(const Eigen::VectorXd& x,
-                                                   double distance) const {
+                                                   double multiple) const {
     std::vector<ContactPair> pairs;
-    for_candidates(x, x, distance, [&](const ContactPair& pair) {
-        if (distance_value(point(x, pair.a), point(x, pair.b), point(x, pair.point)) < distance)
-            pairs.push_back(pair);
-    });
+    for_candidates(
+        x, x, multiple * clearance_, [&](const Loop& loop, std::size_t vertex, std::size_t edge) {
+            const std::size_t next = (edge + 1) % loop.vertices.size();
+            const Index p = loop.vertices[vertex], a = loop.vertices[edge], b = loop.vertices[next];
+            const double distance = distance_value(point(x, a), point(x, b), point(x, p));
+            if (distance >= multiple * clearance_) return;
+            const double clearance = clearance_of(loop, vertex, edge);
+            if (distance < multiple * clearance) pairs.push_back({p, a, b, clearance});
+        });
     return pairs;
 }
 
 double BorderContact::value(const Eigen::VectorXd& x) const {
     double sum = 0.0;
-    for (const ContactPair& pair : near_pairs(x, clearance_)) {
+    for (const ContactPair& pair : near_pairs(x)) {
         const double d = distance_value(point(x, pair.a), point(x, pair.b), point(x, pair.point));
-        sum += weight_[static_cast<std::size_t>(pair.point)] * barrier(d / clearance_).value;
+        sum += weight_[static_cast<std::size_t>(pair.point)] * barrier(d / pair.clearance).value;
     }
     return sum;
 }
 
 void BorderContact::add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const {
-    for (const ContactPair& pair : near_pairs(x, clearance_)) {
+    for (const ContactPair& pair : near_pairs(x)) {
         const Distance d =
             distance_to_edge(point(x, pair.a), point(x, pair.b), point(x, pair.point));
         const double slope = weight_[static_cast<std::size_t>(pair.point)] *
-                             barrier(d.value / clearance_).first / clearance_;
+                             barrier(d.value / pair.clearance).first / pair.clearance;
         gradient.segment<2>(2 * pair.a) += slope * d.gradient.segment<2>(0);
         gradient.segment<2>(2 * pair.b) += slope * d.gradient.segment<2>(2);
         gradient.segment<2>(2 * pair.point) += slope * d.gradient.segment<2>(4);
@@ -218,10 +243,11 @@ BorderContact::Matrix6 BorderContact::pair_hessian(const ContactPair& pair,
                                                    const Eigen::VectorXd& x,
                                                    HessianKind kind) const {
     const Distance d = distance_to_edge(point(x, pair.a), point(x, pair.b), point(x, pair.point));
-    const Barrier b = barrier(d.value / clearance_);
-    Matrix6 hessian = weight_[static_cast<std::size_t>(pair.point)] *
-                      (b.second / (clearance_ * clearance_) * d.gradient * d.gradient.transpose() +
-                       b.first / clearance_ * d.hessian);
+    const Barrier b = barrier(d.value / pair.clearance);
+    Matrix6 hessian =
+        weight_[static_cast<std::size_t>(pair.point)] *
+        (b.second / (pair.clearance * pair.clearance) * d.gradient * d.gradient.transpose() +
+         b.first / pair.clearance * d.hessian);
     if (kind == HessianKind::exact) return hessian;
     const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(hessian);
     return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
@@ -231,9 +257,11 @@ BorderContact::Matrix6 BorderContact::pair_hessian(const ContactPair& pair,
 double BorderContact::collision_step(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const {
     double least = 1.0;
     bool meets = false;
-    for_candidates(x, x + d, 0.0, [&](const ContactPair& pair) {
-        const double t = meeting_time({point(x, pair.a), point(x, pair.b), point(x, pair.point)},
-                                      {point(d, pair.a), point(d, pair.b), point(d, pair.point)});
+    for_candidates(x, x + d, 0.0, [&](const Loop& loop, std::size_t vertex, std::size_t edge) {
+        const Index p = loop.vertices[vertex], a = loop.vertices[edge],
+                    b = loop.vertices[(edge + 1) % loop.vertices.size()];
+        const double t = meeting_time({point(x, a), point(x, b), point(x, p)},
+                                      {point(d, a), point(d, b), point(d, p)});
         if (t > least) return;
         least = t;
         meets = true;

@@ -8,24 +8,28 @@ namespace lastflat {
 /// A border vertex near a border edge of the same region: vertices of the domain.
 struct ContactPair {
     Index point, a, b;
+    double clearance;  ///< mm, see `BorderContact`
 };
 
 /// Keeps the border of every region from crossing itself: border vertices that come nearer to a
-/// border edge than `clearance` are pushed away by a pressure that grows without bound, and no step
-/// goes through an edge. What stays apart feels nothing.
+/// border edge than the pair's clearance are pushed away by a pressure that grows without bound,
+/// and no step goes through an edge. What stays apart feels nothing: the clearance is a hundredth
+/// of the mean border edge, but never more than a quarter of the way between both along the border,
+/// nor than half their distance on the last unless they are the two sides of a slit.
 ///
 /// Paper: [smith-2015], section 3.3 (barrier, step to the first collision); the barrier's form and
 ///        the lists of near pairs: [li-2020], sections 3 and 4.
 class BorderContact {
 public:
+    /// The domain must outlive the contact.
     explicit BorderContact(const Domain& domain);
 
-    /// mm, a hundredth of the mean border edge.
+    /// The greatest clearance of a pair, mm.
     [[nodiscard]] double clearance() const { return clearance_; }
 
-    /// Vertex and edge pairs nearer than `distance`, ascending.
+    /// Pairs nearer than this multiple of their clearance.
     [[nodiscard]] std::vector<ContactPair> near_pairs(const Eigen::VectorXd& x,
-                                                      double distance) const;
+                                                      double multiple = 1.0) const;
 
     /// The barrier, mm^2: zero if nothing is near, infinite if a vertex lies on an edge.
     [[nodiscard]] double value(const Eigen::VectorXd& x) const;
@@ -35,7 +39,7 @@ public:
     /// Calls add(i, j, value) for every entry of the lower triangle, i and j coordinates.
     template <class Add>
     void for_hessian(const Eigen::VectorXd& x, HessianKind kind, const Add& add) const {
-        for (const ContactPair& pair : near_pairs(x, clearance_)) {
+        for (const ContactPair& pair : near_pairs(x)) {
             const std::array<Index, 3> vertices{pair.a, pair.b, pair.point};
             const auto hessian = pair_hessian(pair, x, kind);
             for (Index i = 0; i < 6; ++i) {
@@ -55,14 +59,17 @@ private:
     using Matrix6 = Eigen::Matrix<double, 6, 6>;
     struct Loop {
         std::vector<Index> vertices;  ///< of the domain; edge i runs from i to its successor
+        std::vector<double> along;    ///< per vertex, the way from the first, and one for the end
         std::vector<double> lengths;  ///< per vertex, half of its two edges on the surface
     };
+    [[nodiscard]] double clearance_of(const Loop& loop, std::size_t vertex, std::size_t edge) const;
     [[nodiscard]] Matrix6 pair_hessian(const ContactPair& pair, const Eigen::VectorXd& x,
                                        HessianKind kind) const;
     template <class Visit>
     void for_candidates(const Eigen::VectorXd& x, const Eigen::VectorXd& to, double distance,
                         const Visit& visit) const;
 
+    const Domain& domain_;
     std::vector<Loop> loops_;
     std::vector<double> weight_;  ///< per vertex of the domain, mm^2; zero inside
     double clearance_ = 0.0;

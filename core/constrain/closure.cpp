@@ -69,8 +69,9 @@ public:
               const std::vector<Constraint>& constraints)
         : domain_(domain), rows_(rows), constraints_(constraints), bounds_(bounded_edges(rows)) {
         for (const BoundedEdges& bound : bounds_) {
-            if (bound.edges.size() == 1 && bound.least == bound.most)
-                locked_.emplace(*bound.edges.begin(), bound.constraint);
+            const Constraint& constraint = constraints[bound.constraint];
+            if (constraint.kind != ConstraintKind::lock || constraint.keep != Keep::edges) continue;
+            locked_.emplace(*bound.edges.begin(), bound.constraint);
         }
     }
 
@@ -112,11 +113,17 @@ private:
         const Region& region = *domain_.regions[r];
         const auto on_border = border_mask(region);
         std::map<Index, Hub> hubs;
-        if (locked_.empty()) return std::nullopt;
+        for (const auto& [edge, constraint] : locked_) {
+            for (const Index v : {edge.first - domain_.first[r], edge.second - domain_.first[r]}) {
+                const bool here = v >= 0 && v < static_cast<Index>(region.positions.size());
+                if (here && !on_border[static_cast<std::size_t>(v)]) hubs[v];
+            }
+        }
+        if (hubs.empty()) return std::nullopt;
         for (const Triangle& t : region.triangles) {
             for (std::size_t i = 0; i < 3; ++i) {
-                if (on_border[static_cast<std::size_t>(t[i])]) continue;
-                add_corner(region, domain_.first[r], t, i, hubs[t[i]]);
+                const auto hub = hubs.find(t[i]);
+                if (hub != hubs.end()) add_corner(region, domain_.first[r], t, i, hub->second);
             }
         }
         for (const auto& [v, hub] : hubs) {
@@ -148,8 +155,13 @@ private:
     }
 
     [[nodiscard]] std::optional<OpenLoop> straight_sides(std::size_t r) const {
-        for (std::size_t c = 0; c < constraints_.size(); ++c) {
-            if (constraints_[c].kind != ConstraintKind::straight) continue;
+        std::set<std::size_t> straight;  // constraints with rows in this region
+        for (const ConstraintRow& row : rows_) {
+            if (constraints_[row.constraint].kind == ConstraintKind::straight &&
+                domain_.region_of(row.vertex) == r)
+                straight.insert(row.constraint);
+        }
+        for (const std::size_t c : straight) {
             for (const CurveRun& run : domain_.regions[r]->runs) {
                 if (run.curve != constraints_[c].curve) continue;
                 if (auto found = straight_side(r, c, run)) return found;
@@ -171,9 +183,10 @@ private:
         double least = 0.0;
         std::vector<std::size_t> fighting{c};
         for (const BoundedEdges& bound : bounds_) {
-            if (!std::includes(side.begin(), side.end(), bound.edges.begin(), bound.edges.end()))
-                continue;
-            least += std::max(bound.least, 0.0);
+            const bool inside = std::all_of(bound.edges.begin(), bound.edges.end(),
+                                            [&](const Edge& edge) { return side.count(edge) > 0; });
+            if (!inside || !(bound.least > 0.0)) continue;
+            least += bound.least;
             fighting.push_back(bound.constraint);
             for (const Edge& edge : bound.edges) side.erase(edge);
         }

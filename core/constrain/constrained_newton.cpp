@@ -21,8 +21,8 @@ constexpr double near_isometry = 1.05;
 /// The approach ends when a step promises less than this share of the energy.
 constexpr double approach_decrease = 1e-3;
 constexpr int max_iterations = 300;
-/// Below this sum of projected gradient and error the last factorization may serve further steps.
-constexpr double nearly_optimal = 1e-4;
+/// Below this sum of projected gradient and error the first-order conditions are solved directly.
+constexpr double nearly_optimal = 1e-3;
 /// An inequality that was let go so often stays: it would come and go forever.
 constexpr int most_releases = 8;
 /// Constraints that contradict each other pull with forces beyond this many times the size of the
@@ -43,8 +43,9 @@ public:
           progress_(progress),
           contact_(problem.contact ? std::make_optional<BorderContact>(problem.domain)
                                    : std::nullopt),
+          stiff_curves_(problem.stiff_curves),
           system_(problem.domain, rows_, compliance_, distortion, contact_ ? &*contact_ : nullptr,
-                  x, problem.threads, progress),
+                  problem.stiff_curves, x, problem.threads, progress),
           multipliers_(VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()))),
           held_(rows_.size(), Held::not_held),
           releases_(rows_.size(), 0) {
@@ -60,14 +61,14 @@ public:
         near_ = energy_ < near_isometry * distortion_.total_area();
         while (iterations_ < max_iterations) {
             if (energy_ < enough * distortion_.total_area()) return true;
-            const bool settled = !update_held();
-            if (settled && is_optimal()) return true;
+            if (update_held()) move_to(x);
+            if (is_optimal()) return true;
             progress_.check();
             const Step step = take_step(x);
-            if (step.promised < decrease * energy_) return true;
+            if (decrease > 0.0 && step.promised < decrease * energy_) return true;
             if (hopeless()) return false;
-            if (step.length == 1.0 && projected_gradient_ + worst_error_ <= nearly_optimal)
-                reuse_factor(x);
+            if (step.length == 1.0 && distance_to_optimum() <= nearly_optimal) solve_conditions(x);
+            if (step.length == 0.0 && hold_blocking(x)) continue;
             if (step.length == 0.0) return projected_gradient_ <= tolerance::stalled_gradient;
         }
         return false;
@@ -89,7 +90,11 @@ public:
 private:
     /// Whether the constraints seem to contradict each other.
     [[nodiscard]] bool hopeless() {
-        if (worst_error_ <= tolerance::locked_length) return false;
+        if (worst_error_ <= tolerance::locked_length) {
+            least_error_ = std::numeric_limits<double>::infinity();
+            least_at_ = iterations_;
+            return false;
+        }
         if (worst_error_ < 0.9 * least_error_) {
             least_error_ = worst_error_;
             least_at_ = iterations_;
@@ -128,6 +133,15 @@ private:
         return result;
     }
 
+    /// The residual of exact rows; a soft one's force is its error, so nothing of it is left.
+    [[nodiscard]] VectorXd exact_errors(const VectorXd& values) const {
+        VectorXd errors = residual(values);
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            if (soft(k)) errors[static_cast<Eigen::Index>(k)] = 0.0;
+        }
+        return errors;
+    }
+
     /// What the constraints add to the merit function.
     [[nodiscard]] double cost_of(const VectorXd& values) const {
         double cost = 0.0;
@@ -141,7 +155,8 @@ private:
     [[nodiscard]] double merit(const VectorXd& x) const {
         const double energy = distortion_.value(x);
         if (!std::isfinite(energy)) return energy;
-        return energy + cost_of(row_values(x)) + (contact_ ? contact_->value(x) : 0.0);
+        return energy + cost_of(row_values(x)) + (contact_ ? contact_->value(x) : 0.0) +
+               (stiff_curves_ != nullptr ? stiff_curves_->value(x) : 0.0);
     }
 
     /// Evaluates everything at x, which then is where the search stands.
@@ -149,6 +164,7 @@ private:
         energy_ = distortion_.value(x);
         gradient_ = distortion_.gradient(x);
         if (contact_) contact_->add_gradient(x, gradient_);
+        if (stiff_curves_ != nullptr) stiff_curves_->add_gradient(x, gradient_);
         values_ = row_values(x);
         const VectorXd errors = residual(values_);
         worst_error_ = 0.0;
@@ -169,12 +185,14 @@ private:
     /// Holds what is violated, lets go what pulls the wrong way. Whether anything changed.
     bool update_held() {
         bool changed = false;
+        undecided_ = false;
         for (std::size_t k = 0; k < rows_.size(); ++k) {
             if (rows_[k].is_equation()) continue;
             const auto i = static_cast<Eigen::Index>(k);
             Held now = held_[k];
             const bool pulls_in = static_cast<double>(now) * multipliers_[i] < 0.0;
-            if (now != Held::not_held && pulls_in && releases_[k] < most_releases) {
+            undecided_ = undecided_ || (pulls_in && releases_[k] >= most_releases);
+            if (pulls_in && releases_[k] < most_releases) {
                 now = Held::not_held;
                 multipliers_[i] = 0.0;
                 ++releases_[k];
@@ -188,6 +206,21 @@ private:
         return changed;
     }
 
+    /// Where no part of the last step could be taken: holds the rows at their bounds that it would
+    /// have broken. Whether there are any.
+    [[nodiscard]] bool hold_blocking(const VectorXd& x) {
+        const VectorXd values = row_values(x + direction_);
+        bool found = false;
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            if (held_[k] != Held::not_held || releases_[k] >= most_releases) continue;
+            const double error = rows_[k].violation(values[static_cast<Eigen::Index>(k)]);
+            if (std::abs(error) <= tolerance::solver_length * rows_[k].reference) continue;
+            held_[k] = error > 0.0 ? Held::by_most : Held::by_least;
+            found = true;
+        }
+        return found;
+    }
+
     /// One step of sequential quadratic programming.
     Step take_step(VectorXd& x) {
         ++iterations_;
@@ -197,16 +230,19 @@ private:
         const VectorXd errors = residual(values_);
         const VectorXd solution = system_.solve(-gradient_, -errors);
         const VectorXd d = solution.head(x.size());
+        direction_ = d;
         const VectorXd wanted = solution.tail(errors.size());
-        double slope = gradient_.dot(d);
+        double slope = gradient_.dot(d), force = 0.0;
         for (std::size_t k = 0; k < rows_.size(); ++k) {
             const auto i = static_cast<Eigen::Index>(k);
             if (soft(k)) {
                 slope += multipliers_[i] * (compliance_[k] * wanted[i] - errors[i]);
             } else {
-                penalty_ = std::max(penalty_, 1.5 * std::abs(wanted[i]));
+                force = std::max(force, std::abs(wanted[i]));
             }
         }
+        penalty_ =
+            std::max(1.5 * force, 0.5 * penalty_);  // a great force may have been a passing one
         for (std::size_t k = 0; k < rows_.size(); ++k) {
             if (!soft(k))
                 slope -=
@@ -220,39 +256,56 @@ private:
     }
 
     [[nodiscard]] bool is_optimal() const {
-        return projected_gradient_ <= tolerance::projected_gradient &&
+        return !undecided_ && projected_gradient_ <= tolerance::projected_gradient &&
                worst_error_ <= tolerance::solver_length;
     }
 
-    /// Further full steps with the last factor, for as long as each brings the optimum nearer by
-    /// much (the chord method). They correct what is left of the gradient, so that the old matrix
-    /// tilts nothing.
-    void reuse_factor(VectorXd& x) {
-        constexpr double much = 0.1;
+    /// How far the point is from one that satisfies the first-order conditions.
+    [[nodiscard]] double distance_to_optimum() const { return projected_gradient_ + worst_error_; }
+
+    /// Newton's method on the first-order conditions themselves, for as long as it brings them
+    /// nearer by much: no line search, and the sign of the curvature does not matter. A locked
+    /// curve under compression whose edges are short would rather fold up like a concertina;
+    /// these steps keep to the smooth curve.
+    void solve_conditions(VectorXd& x) {
+        reuse_factor(x);
         while (!is_optimal()) {
-            const double before = projected_gradient_ + worst_error_;
-            const VectorXd start = x, multipliers = multipliers_;
-            VectorXd forces = gradient_;
-            system_.add_forces(x, multipliers_, forces);
-            VectorXd errors = residual(values_);
-            for (std::size_t k = 0; k < rows_.size(); ++k) {
-                if (soft(k)) errors[static_cast<Eigen::Index>(k)] = 0.0;  // its force is its error
-            }
-            const VectorXd solution = system_.solve(-forces, -errors);
-            x += solution.head(x.size());
-            if (reaches(start, x) && std::isfinite(distortion_.value(x))) {
-                multipliers_ += solution.tail(values_.size());
-                move_to(x);
-                if (projected_gradient_ + worst_error_ <= much * before) {
-                    ++iterations_;
-                    continue;
-                }
-            }
-            x = start;
-            multipliers_ = multipliers;
-            move_to(x);
-            return;
+            progress_.check();
+            ++factorizations_;
+            if (!system_.factor_exact(x, multipliers_, held_) || !step_to_conditions(x)) return;
+            reuse_factor(x);
         }
+    }
+
+    /// Further steps with the last factor, whose matrix has hardly changed (the chord method).
+    void reuse_factor(VectorXd& x) {
+        while (!is_optimal() && step_to_conditions(x)) {
+        }
+    }
+
+    /// One full step with the last factor; false, and nothing happens, if it does not bring the
+    /// conditions nearer by much. It corrects what is left of the Lagrangian's gradient, so that an
+    /// old matrix does not tilt the multipliers.
+    bool step_to_conditions(VectorXd& x) {
+        constexpr double much = 0.1;
+        const double before = distance_to_optimum();
+        const VectorXd start = x, multipliers = multipliers_;
+        VectorXd forces = gradient_;
+        system_.add_forces(x, multipliers_, forces);
+        const VectorXd solution = system_.solve(-forces, -exact_errors(values_));
+        x += solution.head(x.size());
+        if (reaches(start, x) && std::isfinite(distortion_.value(x))) {
+            multipliers_ += solution.tail(values_.size());
+            move_to(x);
+            if (distance_to_optimum() <= much * before) {
+                ++iterations_;
+                return true;
+            }
+        }
+        x = start;
+        multipliers_ = multipliers;
+        move_to(x);
+        return false;
     }
 
     /// Moves x along d as far as the merit function falls; returns the step length.
@@ -270,7 +323,7 @@ private:
             bool accepted = falls(to, t);
             if (!accepted && first && t == 1.0 && !rows_.empty()) {
                 // Edges that turn by a finite angle come out too long: correct to second order.
-                to += system_.solve(VectorXd::Zero(x.size()), -residual(row_values(to)))
+                to += system_.solve(VectorXd::Zero(x.size()), -exact_errors(row_values(to)))
                           .head(x.size());
                 accepted = reaches(x, to) && falls(to, t);
             }
@@ -292,14 +345,17 @@ private:
     Distortion& distortion_;
     const Progress& progress_;
     std::optional<BorderContact> contact_;
+    const StiffCurves* stiff_curves_;
     OptimalitySystem system_;
     VectorXd multipliers_, gradient_, values_;
+    VectorXd direction_;  ///< of the last step
     std::vector<Held> held_;
     std::vector<int> releases_;
     double energy_ = 0.0, penalty_ = 0.0, projected_gradient_ = 0.0, worst_error_ = 0.0;
     double least_error_ = std::numeric_limits<double>::infinity();
     int iterations_ = 0, factorizations_ = 0, least_at_ = 0;
     bool near_ = false;
+    bool undecided_ = false;  ///< an inequality that pulls the wrong way and is not let go any more
 };
 
 /// The starts, each scaled to its surface's area.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/constrain/constraint_rows.h"
+#include "core/constrain/stiff_curves.h"
 #include "core/error.h"
 #include "core/parameterize/isotropic_energy.h"
 #include "core/progress.h"
@@ -18,6 +19,8 @@ struct Problem {
     std::size_t threads = 1;
     /// Whether borders are kept from crossing themselves. The starts must not cross.
     bool contact = false;
+    /// Of curves that are to stay smooth; may be null.
+    const StiffCurves* stiff_curves = nullptr;
     /// Per region and triangle how much its distortion counts; none: all the same.
     std::vector<std::vector<double>> weights{};
 };
@@ -44,7 +47,8 @@ struct Minimum {
 ///         set: [hintermueller-2002].
 /// In:     starts without flipped triangles; scale does not matter.
 /// Out:    charts without flipped triangles. Converged: the projected gradient is at most
-///         `tolerance::projected_gradient` and every error at most `tolerance::solver_length`. One
+///         `tolerance::projected_gradient` and every error at most `tolerance::solver_length`, or
+///         no step lowers the energy and the gradient is at most `tolerance::stalled_gradient`. One
 ///         answer for one input, whatever the number of threads.
 /// Throws: Error{method_failed} if a start is folded; Error{solver_failed}; Error{cancelled}.
 [[nodiscard]] Minimum minimise_distortion(const Problem& problem, const std::vector<Chart>& starts,

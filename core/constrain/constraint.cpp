@@ -42,6 +42,7 @@ std::vector<bool> locked_border_edges(const Region& region,
     std::set<std::pair<Index, Index>> kept;
     for (const Constraint& constraint : constraints) {
         if (constraint.kind != ConstraintKind::lock || constraint.keep != Keep::edges) continue;
+        if (!constraint.region.empty() && constraint.region != region.name) continue;
         for (const CurveRun& run : region.runs) {
             if (run.curve != constraint.curve) continue;
             for (std::size_t i = 1; i < run.vertices.size(); ++i)

@@ -37,13 +37,13 @@ struct Constraint {
     int priority = 0;                             ///< the least important gives way first
     std::vector<std::string> option{};            ///< where it stands in the request
 
-    /// "heel", "topline (range)", "area of lateral": for people.
+    /// "lock of heel", "range of topline", "total area of lateral": for people.
     [[nodiscard]] std::string title() const;
 };
 
 [[nodiscard]] std::string_view name(ConstraintKind kind);
 
-/// A curve whose every edge is locked.
+/// A curve that keeps the length of every edge, or in total.
 [[nodiscard]] Constraint lock(std::string curve, Keep keep = Keep::edges);
 
 /// Per border edge, whether a lock of kind `edges` holds it.

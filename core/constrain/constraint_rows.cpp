@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include "core/error.h"
 #include "core/numerics/disjoint_sets.h"
@@ -51,13 +51,12 @@ Sides match_sides(const std::vector<const Region*>& regions, const Constraint& m
 class RowBuilder {
 public:
     RowBuilder(const Domain& domain, const std::vector<Constraint>& constraints)
-        : domain_(domain), constraints_(constraints) {}
+        : domain_(domain), constraints_(constraints) {
+        for (const Region* region : domain.regions) areas_.push_back(surface_area(*region));
+    }
 
     std::vector<ConstraintRow> run() {
-        // Locked edges first: totals that they imply are left out.
-        for_each(ConstraintKind::lock, Keep::edges, &RowBuilder::lock_edges);
-        for_each(ConstraintKind::lock, Keep::total, &RowBuilder::lock_total);
-        for (current_ = 0; current_ < constraints_.size(); ++current_) add_other();
+        for (current_ = 0; current_ < constraints_.size(); ++current_) add_rows();
         return std::move(rows_);
     }
 
@@ -78,29 +77,23 @@ private:
         return result;
     }
 
-    void for_each(ConstraintKind kind, Keep keep, void (RowBuilder::*add_side)(const Side&)) {
-        for (current_ = 0; current_ < constraints_.size(); ++current_) {
-            if (constraint().kind != kind || constraint().keep != keep) continue;
-            for (const Side& side : sides()) (this->*add_side)(side);
+    void add_rows() {
+        const ConstraintKind kind = constraint().kind;
+        if (kind == ConstraintKind::match) return add_match();
+        if (kind == ConstraintKind::pin) return add_pin();
+        if (kind == ConstraintKind::total_area) {
+            for (std::size_t r = 0; r < domain_.regions.size(); ++r) {
+                if (names(constraint().region, domain_.regions[r]->name)) add_area(r);
+            }
+            return;
         }
-    }
-
-    void add_other() {
-        switch (constraint().kind) {
-            case ConstraintKind::lock: break;
-            case ConstraintKind::range:
-                for (const Side& side : sides()) add_range(side);
-                break;
-            case ConstraintKind::match: add_match(); break;
-            case ConstraintKind::straight:
-                for (const Side& side : sides()) add_straight(side);
-                break;
-            case ConstraintKind::total_area:
-                for (std::size_t r = 0; r < domain_.regions.size(); ++r) {
-                    if (names(constraint().region, domain_.regions[r]->name)) add_area(r);
-                }
-                break;
-            case ConstraintKind::pin: add_pin(); break;
+        for (const Side& side : sides()) {
+            if (kind == ConstraintKind::straight)
+                add_straight(side);
+            else if (kind == ConstraintKind::lock && constraint().keep == Keep::edges)
+                lock_edges(side);
+            else
+                bound_length(side);
         }
     }
 
@@ -121,28 +114,14 @@ private:
 
     void lock_edges(const Side& side) {
         for (std::size_t i = 1; i < side.vertices.size(); ++i) {
-            const Edge edge = std::minmax(side.vertices[i - 1], side.vertices[i]);
-            if (!locked_.insert(edge).second) continue;
-            const double length = domain_.distance(edge.first, edge.second);
-            add({{TermKind::length, 1.0, edge.first, edge.second}}, length, length, length,
-                edge.first);
+            const auto [a, b] = std::minmax(side.vertices[i - 1], side.vertices[i]);
+            const double length = domain_.distance(a, b);
+            add({{TermKind::length, 1.0, a, b}}, length, length, length, a);
         }
     }
 
-    void lock_total(const Side& side) {
-        std::vector<Edge> edges;
-        for (std::size_t i = 1; i < side.vertices.size(); ++i)
-            edges.push_back(std::minmax(side.vertices[i - 1], side.vertices[i]));
-        std::sort(edges.begin(), edges.end());
-        const bool implied = std::all_of(edges.begin(), edges.end(),
-                                         [&](const Edge& e) { return locked_.count(e) > 0; });
-        if (implied || !totals_.insert(edges).second) return;
-        std::vector<Term> terms;
-        const double length = add_length(side, 1.0, terms);
-        add(std::move(terms), length, length, length, side.vertices.front());
-    }
-
-    void add_range(const Side& side) {
+    /// The length of a whole side: exact, or in a range.
+    void bound_length(const Side& side) {
         std::vector<Term> terms;
         const double length = add_length(side, 1.0, terms);
         add(std::move(terms), length * (1.0 + constraint().min_percent / 100.0),
@@ -174,7 +153,7 @@ private:
 
     void add_area(std::size_t r) {
         const Region& region = *domain_.regions[r];
-        const double area = surface_area(region), size = std::sqrt(area);
+        const double area = areas_[r], size = std::sqrt(area);
         std::vector<Term> terms;
         for (std::size_t i = 0; i < region.border.size(); ++i) {
             terms.push_back({TermKind::cross, 0.5 / size, region.border[i] + domain_.first[r],
@@ -193,7 +172,7 @@ private:
             const auto found = std::find(sources.begin(), sources.end(), constraint().vertex);
             if (found == sources.end()) continue;
             const Index v = static_cast<Index>(found - sources.begin()) + domain_.first[r];
-            const double size = std::sqrt(surface_area(region));
+            const double size = std::sqrt(areas_[r]);
             for (Index axis = 0; axis < 2; ++axis) {
                 const double at = constraint().place[axis];
                 add({{TermKind::coordinate, 1.0, v, axis}}, at, at, size, v);
@@ -203,26 +182,40 @@ private:
 
     const Domain& domain_;
     const std::vector<Constraint>& constraints_;
+    std::vector<double> areas_;  ///< of the regions
     std::size_t current_ = 0;
     std::vector<ConstraintRow> rows_;
-    std::set<Edge> locked_;
-    std::set<std::vector<Edge>> totals_;
 };
+
+/// The edges of a row that fixes the sum of their lengths; none for other rows.
+std::vector<Edge> fixed_edges(const ConstraintRow& row) {
+    std::vector<Edge> edges;
+    if (!row.is_equation()) return edges;
+    for (const Term& term : row.terms) {
+        if (term.kind != TermKind::length || term.factor != 1.0) return {};
+        edges.push_back(std::minmax(term.a, term.b));
+    }
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
 
 }  // namespace
 
-double Term::value(const Eigen::VectorXd& x) const {
-    switch (kind) {
-        case TermKind::length: return factor * (x.segment<2>(2 * a) - x.segment<2>(2 * b)).norm();
-        case TermKind::cross: return factor * cross(x.segment<2>(2 * a), x.segment<2>(2 * b));
-        case TermKind::coordinate: return factor * x[2 * a + b];
-    }
-    return 0.0;
-}
-
 double ConstraintRow::value(const Eigen::VectorXd& x) const {
+    const Vec2 o = origin(x);
     double sum = 0.0;
-    for (const Term& term : terms) sum += term.value(x);
+    for (const Term& term : terms) {
+        const Vec2 a = x.segment<2>(2 * term.a);
+        switch (term.kind) {
+            case TermKind::length:
+                sum += term.factor * (a - x.segment<2>(2 * term.b)).norm();
+                break;
+            case TermKind::cross:
+                sum += term.factor * cross(a - o, x.segment<2>(2 * term.b) - o);
+                break;
+            case TermKind::coordinate: sum += term.factor * a[term.b]; break;
+        }
+    }
     return sum;
 }
 
@@ -233,6 +226,37 @@ double ConstraintRow::violation(double value) const {
 std::vector<ConstraintRow> constraint_rows(const Domain& domain,
                                            const std::vector<Constraint>& constraints) {
     return RowBuilder(domain, constraints).run();
+}
+
+std::vector<std::size_t> distinct_rows(const std::vector<ConstraintRow>& rows,
+                                       const std::vector<std::size_t>& chosen) {
+    const auto same = [](double a, double b) {
+        return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b));
+    };
+    std::map<Edge, double> single;
+    for (const std::size_t k : chosen) {
+        const auto edges = fixed_edges(rows[k]);
+        if (edges.size() == 1) single.emplace(edges.front(), rows[k].most);
+    }
+    std::map<std::vector<Edge>, double> seen;
+    std::vector<std::size_t> distinct;
+    for (const std::size_t k : chosen) {
+        auto edges = fixed_edges(rows[k]);
+        if (!edges.empty()) {
+            double sum = 0.0;
+            bool implied = edges.size() > 1;
+            for (const Edge& edge : edges) {
+                const auto found = single.find(edge);
+                implied = implied && found != single.end();
+                if (implied) sum += found->second;
+            }
+            if (implied && same(sum, rows[k].most)) continue;
+            const auto [first, is_new] = seen.emplace(std::move(edges), rows[k].most);
+            if (!is_new && same(first->second, rows[k].most)) continue;
+        }
+        distinct.push_back(k);
+    }
+    return distinct;
 }
 
 std::vector<std::vector<std::size_t>> coupled_regions(const std::vector<Region>& regions,

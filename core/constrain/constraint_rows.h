@@ -16,8 +16,6 @@ struct Term {
     TermKind kind;
     double factor;
     Index a, b;
-
-    [[nodiscard]] double value(const Eigen::VectorXd& x) const;
 };
 
 /// The sum of the terms shall lie between `least` and `most`, mm.
@@ -28,16 +26,24 @@ struct ConstraintRow {
     double reference;  ///< mm, what its error is a share of
     Index vertex;      ///< where it is on the last
 
+    /// Cross products are taken from here, near the row's points, so that they keep their digits
+    /// wherever the chart lies; their sum around a polygon is the same from everywhere.
+    [[nodiscard]] Vec2 origin(const Eigen::VectorXd& x) const { return x.segment<2>(2 * vertex); }
+
     [[nodiscard]] double value(const Eigen::VectorXd& x) const;
     /// What is missing, with its sign: above `most` positive, below `least` negative, else zero.
     [[nodiscard]] double violation(double value) const;
     [[nodiscard]] bool is_equation() const { return least == most; }
 };
 
-/// The rows that the constraints put on a domain. An edge that two locks name is locked once; a
-/// total whose edges are all locked adds nothing. A match binds the domain that has both its sides.
+/// The rows that the constraints put on a domain. A match binds the domain that has both its sides.
 [[nodiscard]] std::vector<ConstraintRow> constraint_rows(
     const Domain& domain, const std::vector<Constraint>& constraints);
+
+/// Of the chosen rows those that say something new, ascending: an edge that two of them lock is
+/// locked once, a sum whose edges are all locked at that length adds nothing.
+[[nodiscard]] std::vector<std::size_t> distinct_rows(const std::vector<ConstraintRow>& rows,
+                                                     const std::vector<std::size_t>& chosen);
 
 /// Which regions have to be flattened together because constraints match their curves: groups of
 /// places in `regions`, ascending.

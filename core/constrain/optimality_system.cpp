@@ -56,13 +56,15 @@ Index common_block(const std::vector<UnknownBlock>& blocks, Index a, Index b, In
 
 OptimalitySystem::OptimalitySystem(const Domain& domain, const std::vector<ConstraintRow>& rows,
                                    const std::vector<double>& compliance, Distortion& distortion,
-                                   const BorderContact* contact, const Eigen::VectorXd& x,
-                                   std::size_t threads, const Progress& progress)
+                                   const BorderContact* contact, const StiffCurves* stiff_curves,
+                                   const Eigen::VectorXd& x, std::size_t threads,
+                                   const Progress& progress)
     : domain_(domain),
       rows_(rows),
       compliance_(compliance),
       distortion_(distortion),
       contact_(contact),
+      stiff_curves_(stiff_curves),
       threads_(threads),
       progress_(progress),
       unknowns_(2 * domain.vertices()),
@@ -80,16 +82,16 @@ void OptimalitySystem::analyse() {
 void OptimalitySystem::prepare(const Eigen::VectorXd& x) {
     constexpr double soon = 3.0;
     if (contact_ == nullptr) return;
-    const auto add = [&](double distance) {
+    const auto add = [&](double multiple) {
         const std::size_t before = contacts_.size();
-        for (const ContactPair& pair : contact_->near_pairs(x, distance)) {
+        for (const ContactPair& pair : contact_->near_pairs(x, multiple)) {
             contacts_.insert(std::minmax(pair.point, pair.a));
             contacts_.insert(std::minmax(pair.point, pair.b));
         }
         return contacts_.size() > before;
     };
-    if (!add(contact_->clearance())) return;
-    add(soon * contact_->clearance());
+    if (!add(1.0)) return;
+    add(soon);
     analyse();
 }
 
@@ -105,6 +107,10 @@ std::vector<OptimalitySystem::VertexPair> OptimalitySystem::vertex_pairs() const
                 pairs.emplace_back(a + first, b + first);
             }
         }
+    }
+    if (stiff_curves_ != nullptr) {
+        const auto bends = stiff_curves_->vertex_pairs();
+        pairs.insert(pairs.end(), bends.begin(), bends.end());
     }
     for (const ConstraintRow& row : rows_) {
         for (const Term& term : row.terms) {
@@ -203,6 +209,7 @@ void OptimalitySystem::add_block(Index a, Index b, const Eigen::Matrix2d& block)
 void OptimalitySystem::add_term(Index row, const Term& term, const Eigen::VectorXd& x,
                                 double multiplier, HessianKind kind) {
     const double weight = multiplier * term.factor;
+    const Vec2 o = rows_[at(row - unknowns_)].origin(x);
     const Vec2 a = x.segment<2>(2 * term.a);
     switch (term.kind) {
         case TermKind::coordinate: entry(row, 2 * term.a + term.b) += term.factor; return;
@@ -223,11 +230,11 @@ void OptimalitySystem::add_term(Index row, const Term& term, const Eigen::Vector
             return;
         }
         case TermKind::cross: {
-            const Vec2 b = x.segment<2>(2 * term.b);
-            entry(row, 2 * term.a) += term.factor * b.y();
-            entry(row, 2 * term.a + 1) -= term.factor * b.x();
-            entry(row, 2 * term.b) -= term.factor * a.y();
-            entry(row, 2 * term.b + 1) += term.factor * a.x();
+            const Vec2 p = a - o, q = x.segment<2>(2 * term.b) - o;
+            entry(row, 2 * term.a) += term.factor * q.y();
+            entry(row, 2 * term.a + 1) -= term.factor * q.x();
+            entry(row, 2 * term.b) -= term.factor * p.y();
+            entry(row, 2 * term.b + 1) += term.factor * p.x();
             if (kind == HessianKind::projected) return;
             Eigen::Matrix2d turn;
             turn << 0.0, weight, -weight, 0.0;
@@ -240,6 +247,7 @@ void OptimalitySystem::add_term(Index row, const Term& term, const Eigen::Vector
 void OptimalitySystem::add_forces(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
                                   Eigen::VectorXd& gradient) const {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
+        const Vec2 o = rows_[k].origin(x);
         for (const Term& term : rows_[k].terms) {
             const double weight = multipliers[static_cast<Eigen::Index>(k)] * term.factor;
             const Vec2 a = x.segment<2>(2 * term.a);
@@ -253,8 +261,8 @@ void OptimalitySystem::add_forces(const Eigen::VectorXd& x, const Eigen::VectorX
                 gradient.segment<2>(2 * term.a) += unit;
                 gradient.segment<2>(2 * term.b) -= unit;
             } else {
-                gradient.segment<2>(2 * term.a) += weight * Vec2(b.y(), -b.x());
-                gradient.segment<2>(2 * term.b) += weight * Vec2(-a.y(), a.x());
+                gradient.segment<2>(2 * term.a) += weight * Vec2(b.y() - o.y(), o.x() - b.x());
+                gradient.segment<2>(2 * term.b) += weight * Vec2(o.y() - a.y(), a.x() - o.x());
             }
         }
     }
@@ -263,29 +271,34 @@ void OptimalitySystem::add_forces(const Eigen::VectorXd& x, const Eigen::VectorX
 /// Stiffens three coordinates of every region: both of one vertex, and of the vertex furthest from
 /// it the one across the line between them. A rigid motion costs nothing, so holding it takes
 /// nothing from the step; left free, its curvature away from the minimum may be negative. Where the
-/// scale is free as well, the fourth holds it. A region with pins is held by them.
+/// scale is free as well, the fourth holds it. Of a region with one pin the first vertex is the
+/// pinned one; a region with more is held by them.
 void OptimalitySystem::hold_in_place(const Eigen::VectorXd& x, double stiffness) {
     for (std::size_t r = 0; r < domain_.regions.size(); ++r) {
-        const Index first = domain_.first[r], end = domain_.first[r + 1];
-        const bool pinned = std::any_of(rows_.begin(), rows_.end(), [&](const ConstraintRow& row) {
-            return row.terms.front().kind == TermKind::coordinate && row.vertex >= first &&
-                   row.vertex < end;
-        });
-        if (pinned) continue;
-        Index far = first;
+        std::set<Index> pinned;
+        for (const ConstraintRow& row : rows_) {
+            if (row.terms.front().kind == TermKind::coordinate &&
+                domain_.region_of(row.vertex) == r)
+                pinned.insert(row.vertex);
+        }
+        if (pinned.size() > 1) continue;
+        const Index base = pinned.empty() ? domain_.first[r] : *pinned.begin();
+        Index far = base;
         double largest = -1.0;
-        for (Index v = first + 1; v < end; ++v) {
-            const double distance = (x.segment<2>(2 * v) - x.segment<2>(2 * first)).squaredNorm();
+        for (Index v = domain_.first[r]; v < domain_.first[r + 1]; ++v) {
+            const double distance = (x.segment<2>(2 * v) - x.segment<2>(2 * base)).squaredNorm();
             if (distance <= largest) continue;
             largest = distance;
             far = v;
         }
-        const Vec2 between = (x.segment<2>(2 * far) - x.segment<2>(2 * first)).cwiseAbs();
-        diagonal(2 * first) += stiffness;
-        diagonal(2 * first + 1) += stiffness;
-        diagonal(2 * far + (between.x() > between.y() ? 1 : 0)) += stiffness;
-        if (distortion_.scale_free())
-            diagonal(2 * far + (between.x() > between.y() ? 0 : 1)) += stiffness;
+        const Vec2 between = (x.segment<2>(2 * far) - x.segment<2>(2 * base)).cwiseAbs();
+        const Index across = between.x() > between.y() ? 1 : 0;
+        if (pinned.empty()) {
+            diagonal(2 * base) += stiffness;
+            diagonal(2 * base + 1) += stiffness;
+        }
+        diagonal(2 * far + across) += stiffness;
+        if (distortion_.scale_free()) diagonal(2 * far + 1 - across) += stiffness;
     }
 }
 
@@ -293,10 +306,9 @@ double OptimalitySystem::fill(const Eigen::VectorXd& x, const Eigen::VectorXd& m
                               const std::vector<Held>& held, HessianKind kind) {
     std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
     distortion_.add_hessian(x, kind, matrix_);
-    if (contact_ != nullptr) {
-        contact_->for_hessian(
-            x, kind, [&](Index row, Index column, double value) { entry(row, column) += value; });
-    }
+    const auto add = [&](Index row, Index column, double value) { entry(row, column) += value; };
+    if (contact_ != nullptr) contact_->for_hessian(x, kind, add);
+    if (stiff_curves_ != nullptr) stiff_curves_->for_hessian(x, kind, add);
     double trace = 0.0;
     for (Index i = 0; i < unknowns_; ++i) trace += diagonal(i);
     const double mean = trace / unknowns_;
@@ -345,6 +357,14 @@ void OptimalitySystem::factor(const Eigen::VectorXd& x, const Eigen::VectorXd& m
     if (kind == HessianKind::exact && attempt(HessianKind::exact, exact_shifts)) return;
     if (attempt(HessianKind::projected, projected_shifts)) return;
     throw Error(ErrorCode::solver_failed, "a Newton step could not be computed");
+}
+
+bool OptimalitySystem::factor_exact(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
+                                    const std::vector<Held>& held) {
+    prepare(x);
+    const double mean = fill(x, multipliers, held, HessianKind::exact);
+    shift_diagonal(tolerance::rigid_motion * mean);
+    return solver_.factor(matrix_, progress_, threads_);
 }
 
 Eigen::VectorXd OptimalitySystem::solve(const Eigen::VectorXd& top,

@@ -5,6 +5,7 @@
 
 #include "core/constrain/border_contact.h"
 #include "core/constrain/constraint_rows.h"
+#include "core/constrain/stiff_curves.h"
 #include "core/numerics/multifrontal_ldlt.h"
 #include "core/numerics/nested_dissection.h"
 #include "core/parameterize/distortion.h"
@@ -22,12 +23,12 @@ enum class Held : signed char { by_least = -1, not_held = 0, by_most = 1 };
 class OptimalitySystem {
 public:
     /// All arguments must outlive the system. `compliance`: per row how far, mm, it gives way to a
-    /// force of 1 mm; 0: it does not. `contact` may be null.
+    /// force of 1 mm; 0: it does not. `contact` and `stiff_curves` may be null.
     /// `x`: where the vertices lie, about.
     OptimalitySystem(const Domain& domain, const std::vector<ConstraintRow>& rows,
                      const std::vector<double>& compliance, Distortion& distortion,
-                     const BorderContact* contact, const Eigen::VectorXd& x, std::size_t threads,
-                     const Progress& progress);
+                     const BorderContact* contact, const StiffCurves* stiff_curves,
+                     const Eigen::VectorXd& x, std::size_t threads, const Progress& progress);
 
     /// Makes room for contacts that are or may soon be near at x.
     void prepare(const Eigen::VectorXd& x);
@@ -37,6 +38,11 @@ public:
     /// Throws: Error{solver_failed} if no shift helps; Error{cancelled}.
     void factor(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
                 const std::vector<Held>& held, HessianKind kind);
+
+    /// Fills and factors the system with the exact Hessian, whatever the sign of its curvature.
+    /// False if it is singular.
+    [[nodiscard]] bool factor_exact(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
+                                    const std::vector<Held>& held);
 
     /// Solves for (step, multipliers) given both right-hand sides.
     [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& top,
@@ -69,6 +75,7 @@ private:
     const std::vector<double>& compliance_;
     Distortion& distortion_;
     const BorderContact* contact_;
+    const StiffCurves* stiff_curves_;
     std::set<VertexPair> contacts_;  ///< that the pattern has room for
     std::size_t threads_;
     const Progress& progress_;

@@ -22,6 +22,18 @@ std::string amount(double value, const char* unit) {
     return text;
 }
 
+/// A search for the smallest set that fights ends after so many solves; what it has not looked at
+/// then counts as fighting.
+constexpr int most_solves = 300;
+
+/// "lateral", "lateral and medial": for people.
+std::string names_of(const Domain& domain) {
+    std::string text;
+    for (const Region* region : domain.regions)
+        text += (text.empty() ? "" : " and ") + region->name;
+    return text;
+}
+
 double total_area(const Domain& domain) {
     double area = 0.0;
     for (const Region* region : domain.regions) area += surface_area(*region);
@@ -39,6 +51,7 @@ public:
           threads_(threads),
           progress_(progress),
           rows_(constraint_rows(domain, constraints_)),
+          stiff_curves_(domain, constraints_),
           role_(constraints_.size(), Role::kept),
           compliance_(rows_.size(), compromise) {}
 
@@ -49,6 +62,7 @@ public:
             result.relaxed.push_back(constraint);
         };
         while (const auto loop = open_loop(domain_, kept_rows(), constraints_)) {
+            progress_.check();
             if (demands_.on_conflict == OnConflict::fail) fail(*loop);
             relax(least_important(loop->constraints));
         }
@@ -80,20 +94,31 @@ private:
 
     [[nodiscard]] Minimum solve_from(const std::vector<Chart>& starts,
                                      const std::vector<Role>& roles) const {
+        ++solves_;
         std::vector<ConstraintRow> rows;
         std::vector<double> compliance;
-        for (std::size_t k = 0; k < rows_.size(); ++k) {
-            const ConstraintRow& row = rows_[k];
-            const Role role = roles[row.constraint];
-            if (role == Role::absent) continue;
-            rows.push_back(row);
-            compliance.push_back(role == Role::soft ? compliance_[k] : 0.0);
+        for (const std::size_t k : chosen_rows(roles)) {
+            rows.push_back(rows_[k]);
+            compliance.push_back(roles[rows_[k].constraint] == Role::soft ? compliance_[k] : 0.0);
         }
         Problem problem{domain_, rows, demands_.energy, std::move(compliance)};
         problem.threads = threads_;
         problem.contact = demands_.contact;
+        problem.stiff_curves = &stiff_curves_;
         problem.weights = demands_.weights;
         return minimise_distortion(problem, starts, progress_);
+    }
+
+    /// What the roles leave to be solved: exact rows without repeats, and the soft ones.
+    [[nodiscard]] std::vector<std::size_t> chosen_rows(const std::vector<Role>& roles) const {
+        std::vector<std::size_t> exact, chosen;
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            if (roles[rows_[k].constraint] == Role::kept) exact.push_back(k);
+            if (roles[rows_[k].constraint] == Role::soft) chosen.push_back(k);
+        }
+        for (const std::size_t k : distinct_rows(rows_, exact)) chosen.push_back(k);
+        std::sort(chosen.begin(), chosen.end());
+        return chosen;
     }
 
     [[nodiscard]] static bool kept(const Minimum& minimum) {
@@ -117,7 +142,7 @@ private:
         std::vector<std::size_t> fighting;
         for (const std::size_t c : order) {
             roles[c] = Role::absent;
-            if (!kept(solve(roles))) continue;
+            if (solves_ < most_solves && !kept(solve(roles))) continue;
             roles[c] = Role::kept;
             fighting.push_back(c);
         }
@@ -141,14 +166,12 @@ private:
             compliance_[k] = std::max(compromise, error / force);
         }
         Minimum pulled = solve_from(minimum.charts, role_);
-        if (kept(pulled)) minimum = std::move(pulled);
+        if (kept(pulled) && pulled.converged) minimum = std::move(pulled);
     }
 
     [[nodiscard]] std::vector<ConstraintRow> kept_rows() const {
         std::vector<ConstraintRow> rows;
-        for (const ConstraintRow& row : rows_) {
-            if (role_[row.constraint] == Role::kept) rows.push_back(row);
-        }
+        for (const std::size_t k : chosen_rows(without_soft())) rows.push_back(rows_[k]);
         return rows;
     }
 
@@ -168,7 +191,7 @@ private:
             names += (names.empty() ? "" : ", ") + constraints_[c].title();
         }
         throw Error(ErrorCode::constraints_infeasible,
-                    "region '" + domain_.regions.front()->name + "': " + names +
+                    "region '" + names_of(domain_) + "': " + names +
                         " cannot all hold: " + loop.why +
                         "; leave one out or let it give way (\"on_conflict\": \"relax\")")
             .at_option(constraints_[loop.constraints.front()].option)
@@ -188,7 +211,7 @@ private:
                     place(m.position) + ")";
         }
         throw Error(ErrorCode::constraints_infeasible,
-                    "region '" + domain_.regions.front()->name +
+                    "region '" + names_of(domain_) +
                         "': these constraints cannot all hold; at the best compromise they are off "
                         "by: " +
                         text + "; leave one out or let it give way (\"on_conflict\": \"relax\")")
@@ -202,11 +225,11 @@ private:
                                         const Minimum& best) const {
         ConflictMember result{json_pointer(constraints_[c].option), constraints_[c].title(), 0.0,
                               Vec3::Zero()};
-        Eigen::Index k = 0;
+        Eigen::Index i = 0;
         double worst = -1.0;
-        for (const ConstraintRow& row : rows_) {
-            if (roles[row.constraint] == Role::absent) continue;
-            const double error = best.errors[k++];
+        for (const std::size_t k : chosen_rows(roles)) {
+            const ConstraintRow& row = rows_[k];
+            const double error = best.errors[i++];
             if (row.constraint != c || std::abs(error) <= worst) continue;
             worst = std::abs(error);
             result.off_mm = error;
@@ -222,13 +245,15 @@ private:
     std::size_t threads_;
     const Progress& progress_;
     const std::vector<ConstraintRow> rows_;
+    const StiffCurves stiff_curves_;
+    mutable int solves_ = 0;
     std::vector<Role> role_;
     std::vector<double> compliance_;  ///< per row, while it is soft
 };
 
 Warning not_converged(const Domain& domain, const Minimum& minimum) {
     return {"not_converged",
-            "region '" + domain.regions.front()->name + "' is sound but not at its minimum after " +
+            "region '" + names_of(domain) + "' is sound but not at its minimum after " +
                 std::to_string(minimum.iterations) + " Newton steps: its projected gradient is " +
                 amount(minimum.projected_gradient, ""),
             std::nullopt};

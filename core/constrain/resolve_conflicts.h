@@ -28,7 +28,8 @@ struct Demands {
 /// Least distortion of a domain under constraints.
 ///
 /// Out:    every constraint kept to `tolerance::locked_length` but the relaxed ones, of which the
-///         least important one of every set that fights gave way, as close as the others let it.
+///         least important one of every set that fights gave way; it still pulls, with at most a
+///         tenth of the size of the surface, so that it does not distort the rest beyond measure.
 ///         Warning `not_converged` if the minimum was not reached (needles, slender shapes).
 /// Throws: Error{constraints_infeasible} with the smallest set found of constraints that fight: no
 ///         member of it can be left out; how far each is off at the best compromise, and where.

@@ -130,7 +130,10 @@ void orient_charts(const std::vector<Region>& regions, const std::vector<Index>&
     for (std::size_t r = 0; r < regions.size(); ++r) {
         Points2& uv = charts[r].uv;
         const auto pins = pinned_vertices(regions[r], constraints);
-        if (pins.size() > 1) continue;
+        if (pins.size() > 1) {
+            move_to_pins(pins, uv);
+            continue;
+        }
         Vec2 base = direction_of(axis, patches(regions[r], charts[r]));
         if (const auto line = named_base_line(regions[r])) {
             base =

@@ -27,7 +27,7 @@ struct DistortionWeights {
     [[nodiscard]] bool even() const { return stretch == 1.0 && compression == 1.0; }
 };
 
-/// Per triangle the product of the weights of the zones that it is in.
+/// Per triangle the product of the weights of the zones that it is in, 0.001 to 1000.
 [[nodiscard]] std::vector<double> triangle_weights(const Region& region,
                                                    const std::vector<Zone>& zones);
 

@@ -34,7 +34,7 @@ TEST_SUITE("core/constrain/border_contact") {
         const Domain domain({&region});
         const BorderContact contact(domain);
         const Eigen::VectorXd x = bent_strip(region, 2.0);
-        CHECK(contact.near_pairs(x, contact.clearance()).empty());
+        CHECK(contact.near_pairs(x).empty());
         CHECK(contact.value(x) == 0.0);
         CHECK(contact.collision_step(x, Eigen::VectorXd::Zero(x.size())) == 1.0);
     }
@@ -44,7 +44,7 @@ TEST_SUITE("core/constrain/border_contact") {
         const Domain domain({&region});
         const BorderContact contact(domain);
         const Eigen::VectorXd x = bent_strip(region, 0.6 * contact.clearance());
-        REQUIRE_FALSE(contact.near_pairs(x, contact.clearance()).empty());
+        REQUIRE_FALSE(contact.near_pairs(x).empty());
         Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
         contact.add_gradient(x, gradient);
         CHECK(gradient.norm() > 0.0);
@@ -67,6 +67,15 @@ TEST_SUITE("core/constrain/border_contact") {
                           .scale(hessian.norm()));
             }
         }
+    }
+
+    TEST_CASE("a border edge much shorter than the others is left as it is") {
+        Region region = test::plane(6);
+        region.positions[1] = region.positions[0] + Vec3(0.02, 0, 0);
+        const auto result = test::flattened({&region}, {});
+        CHECK(result.minimum.energy == doctest::Approx(1.0).epsilon(1e-10));
+        const auto& uv = result.minimum.charts[0].uv;
+        CHECK((uv[0] - uv[1]).norm() == doctest::Approx(0.02).epsilon(1e-5));
     }
 
     TEST_CASE("no step goes through an edge") {

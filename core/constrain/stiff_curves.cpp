@@ -1,0 +1,164 @@
+#include "core/constrain/stiff_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "core/numerics/polygon.h"
+
+namespace lastflat {
+namespace {
+
+/// Of the surface's area to the power of 3/2. A half of a last: about 4 mm^3.
+constexpr double stiffness_share = 1.5e-6;
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+Vec2 point(const Eigen::VectorXd& x, Index v) {
+    return x.segment<2>(2 * v);
+}
+
+/// Angles on the surface, by the directed edge that a corner's triangle begins with.
+class Corners {
+public:
+    explicit Corners(const Region& region) {
+        for (const Triangle& t : region.triangles) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const Index a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
+                next_[{a, b}] = {
+                    c, angle_at(region.position(a), region.position(b), region.position(c))};
+            }
+        }
+    }
+
+    /// The angle at b from the edge to c, counter-clockwise, to the edge to a; nothing if the
+    /// surface does not reach from one to the other.
+    [[nodiscard]] std::optional<double> left_angle(Index a, Index b, Index c) const {
+        double sum = 0.0;
+        for (Index v = c; v != a;) {
+            const auto found = next_.find({b, v});
+            if (found == next_.end()) return std::nullopt;
+            sum += found->second.second;
+            v = found->second.first;
+            if (v == c) return std::nullopt;
+        }
+        return sum;
+    }
+
+private:
+    std::map<std::pair<Index, Index>, std::pair<Index, double>> next_;
+};
+
+/// How much the path a, b, c turns on the surface: what its two sides agree on, or its only one.
+double turn_on_surface(const Corners& corners, Index a, Index b, Index c) {
+    const auto left = corners.left_angle(a, b, c), right = corners.left_angle(c, b, a);
+    if (left && right) return 0.5 * (*right - *left);
+    if (left) return std::numbers::pi - *left;
+    if (right) return *right - std::numbers::pi;
+    return 0.0;
+}
+
+struct Turn {
+    double value;
+    Vector6 gradient;
+};
+
+Turn turn_of(const std::array<Index, 3>& vertices, const Eigen::VectorXd& x) {
+    const Vec2 e = point(x, vertices[1]) - point(x, vertices[0]);
+    const Vec2 f = point(x, vertices[2]) - point(x, vertices[1]);
+    const Vec2 de = Vec2(-e.y(), e.x()) / e.squaredNorm();
+    const Vec2 df = Vec2(-f.y(), f.x()) / f.squaredNorm();
+    Turn turn{std::atan2(cross(e, f), e.dot(f)), {}};
+    turn.gradient << de, -de - df, df;
+    return turn;
+}
+
+/// The difference of two angles, in [-pi, pi].
+double between(double a, double b) {
+    return std::remainder(a - b, 2.0 * std::numbers::pi);
+}
+
+/// Second derivative of a vector's angle.
+Eigen::Matrix2d angle_hessian(const Vec2& e) {
+    const double mixed = e.y() * e.y() - e.x() * e.x(), twice = 2.0 * e.x() * e.y();
+    Eigen::Matrix2d hessian;
+    hessian << twice, mixed, mixed, -twice;
+    return hessian / (e.squaredNorm() * e.squaredNorm());
+}
+
+}  // namespace
+
+StiffCurves::StiffCurves(const Domain& domain, const std::vector<Constraint>& constraints) {
+    for (std::size_t r = 0; r < domain.regions.size(); ++r) {
+        for (const CurveRun& run : domain.regions[r]->runs) {
+            const bool locked =
+                std::any_of(constraints.begin(), constraints.end(), [&](const Constraint& c) {
+                    return c.kind == ConstraintKind::lock && c.keep == Keep::edges &&
+                           c.curve == run.curve &&
+                           (c.region.empty() || c.region == domain.regions[r]->name);
+                });
+            if (locked) add_run(domain, r, run);
+        }
+    }
+}
+
+void StiffCurves::add_run(const Domain& domain, std::size_t r, const CurveRun& run) {
+    const Region& region = *domain.regions[r];
+    const Corners corners(region);
+    const double k = stiffness_share * std::pow(surface_area(region), 1.5);
+    for (std::size_t i = 1; i + 1 < run.vertices.size(); ++i) {
+        const Index a = run.vertices[i - 1], b = run.vertices[i], c = run.vertices[i + 1];
+        const double length = 0.5 * (region.distance(a, b) + region.distance(b, c));
+        const Index first = domain.first[r];
+        bends_.push_back(
+            {{a + first, b + first, c + first}, turn_on_surface(corners, a, b, c), k / length});
+    }
+}
+
+std::vector<std::pair<Index, Index>> StiffCurves::vertex_pairs() const {
+    std::vector<std::pair<Index, Index>> pairs;
+    for (const Bend& bend : bends_)
+        pairs.push_back(std::minmax(bend.vertices[0], bend.vertices[2]));
+    return pairs;
+}
+
+double StiffCurves::value(const Eigen::VectorXd& x) const {
+    double sum = 0.0;
+    for (const Bend& bend : bends_) {
+        const double excess = between(turn_of(bend.vertices, x).value, bend.turn);
+        sum += 0.5 * bend.stiffness * excess * excess;
+    }
+    return sum;
+}
+
+void StiffCurves::add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const {
+    for (const Bend& bend : bends_) {
+        const Turn turn = turn_of(bend.vertices, x);
+        const double moment = bend.stiffness * between(turn.value, bend.turn);
+        for (Eigen::Index i = 0; i < 3; ++i) {
+            gradient.segment<2>(2 * bend.vertices[static_cast<std::size_t>(i)]) +=
+                moment * turn.gradient.segment<2>(2 * i);
+        }
+    }
+}
+
+StiffCurves::Matrix6 StiffCurves::bend_hessian(const Bend& bend, const Eigen::VectorXd& x,
+                                               HessianKind kind) {
+    const Turn turn = turn_of(bend.vertices, x);
+    Matrix6 hessian = bend.stiffness * turn.gradient * turn.gradient.transpose();
+    if (kind == HessianKind::projected) return hessian;
+    const double moment = bend.stiffness * between(turn.value, bend.turn);
+    const auto add = [&](const Vec2& edge, Eigen::Index from, double sign) {
+        const Eigen::Matrix2d part = sign * moment * angle_hessian(edge);
+        hessian.block<2, 2>(from, from) += part;
+        hessian.block<2, 2>(from + 2, from + 2) += part;
+        hessian.block<2, 2>(from, from + 2) -= part;
+        hessian.block<2, 2>(from + 2, from) -= part;
+    };
+    add(point(x, bend.vertices[1]) - point(x, bend.vertices[0]), 0, -1.0);
+    add(point(x, bend.vertices[2]) - point(x, bend.vertices[1]), 2, 1.0);
+    return hessian;
+}
+
+}  // namespace lastflat
