@@ -48,6 +48,12 @@ TEST_SUITE("api/flatten_request") {
             "cuts": ["centre_front", "heel"],
             "regions": {"exterior": {"contains": {"vertex": 5200}}, "interior": {}},
             "locks": [{"curve": "centre_front"}, {"curve": "topline", "keep": "total"}],
+            "constraints": [{"kind": "range", "curve": "featherline", "min_percent": -1},
+                            {"kind": "match", "curve": "heel", "region": "exterior"},
+                            {"kind": "pin", "point": "toe_point", "at_mm": [1, 2], "priority": 7}],
+            "on_conflict": "relax",
+            "weights": {"compression": 4, "zones": [{"point": "toe_point", "within_mm": 9, "weight": 3}]},
+            "material": {"stretch_max_percent": 5, "compress_max_percent": 2},
             "method": {"name": "geodesic_fan", "angles": "averaged_conformal"},
             "layout": {"arrangement": "pair"}, "tag": "order-4711"})");
         CHECK(request.units == Unit::in);
@@ -65,6 +71,18 @@ TEST_SUITE("api/flatten_request") {
         CHECK(request.regions[1].name == "medial");
         CHECK(request.constraints[0].keep == KeepLength::edges);
         CHECK(request.constraints[1].keep == KeepLength::total);
+        REQUIRE(request.constraints.size() == 5);
+        CHECK(request.constraints[2].min_percent == -1.0);
+        CHECK_FALSE(request.constraints[2].max_percent.has_value());
+        CHECK(request.constraints[3].with_curve == "heel");
+        CHECK(request.constraints[3].region == "lateral");
+        CHECK(request.constraints[4].vertex == 80);
+        CHECK(request.constraints[4].priority == 7);
+        CHECK(request.constraints[4].path == std::vector<std::string>{"constraints", "2"});
+        CHECK(request.on_conflict == Conflict::relax);
+        CHECK(request.weights.compression == 4.0);
+        CHECK(request.weights.zones[0].vertex == 80);
+        CHECK(request.material->compress_max_percent == 2.0);
         CHECK(request.method.angles == Angles::averaged_conformal);
         CHECK(request.tag == "order-4711");
     }
@@ -98,6 +116,30 @@ TEST_SUITE("api/flatten_request") {
             {R"({"locks": [{"keep": "edges"}]})", "/locks/0"},
             {R"({"locks": [{"curve": "a", "keep": "all"}]})", "/locks/0/keep"},
             {R"({"locks": [{"curve": "a"}, {"curve": "a"}]})", "/locks/1"},
+            {R"({"constraints": [{"curve": "a"}]})", "/constraints/0"},
+            {R"({"constraints": [{"kind": "glue", "curve": "a"}]})", "/constraints/0/kind"},
+            {R"({"constraints": [{"kind": "range", "curve": "a"}]})", "/constraints/0"},
+            {R"({"constraints": [{"kind": "range", "curve": "a", "min_percent": 2, "max_percent": 1}]})",
+             "/constraints/0"},
+            {R"({"constraints": [{"kind": "straight", "curve": "a", "keep": "total"}]})",
+             "/constraints/0/keep"},
+            {R"({"locks": [{"curve": "a"}], "constraints": [{"kind": "lock", "curve": "a", "region": "b"}]})",
+             "/constraints/0"},
+            {R"({"constraints": [{"kind": "straight", "curve": "a"}, {"kind": "straight", "curve": "a"}]})",
+             "/constraints/1"},
+            {R"({"constraints": [{"kind": "pin", "vertex": 3}]})", "/constraints/0"},
+            {R"({"constraints": [{"kind": "pin", "point": "p", "at_mm": [0, 0]}]})",
+             "/constraints/0/point"},
+            {R"({"constraints": [{"kind": "pin", "vertex": 1, "at_mm": [0]}]})",
+             "/constraints/0/at_mm"},
+            {R"({"constraints": [{"kind": "total_area", "priority": 0.5}]})",
+             "/constraints/0/priority"},
+            {R"({"on_conflict": "maybe"})", "/on_conflict"},
+            {R"({"weights": {"stretch": 0}})", "/weights/stretch"},
+            {R"({"weights": {"zones": [{"weight": 2}]}})", "/weights/zones/0"},
+            {R"({"weights": {"zones": [{"curve": "a", "weight": 2}]}})", "/weights/zones/0"},
+            {R"({"weights": {"zones": [{"curve": "a", "within_mm": 5}]}})", "/weights/zones/0"},
+            {R"({"material": {"stretch_max_percent": 5}})", "/material"},
             {R"({"method": {"name": "magic"}})", "/method/name"},
             {R"({"method": {"name": "isometric", "border": "circle"}})", "/method/border"},
             {R"({"method": {"name": "mean_value", "angles": "curvature"}})", "/method/angles"},

@@ -88,6 +88,20 @@ TEST_SUITE("core/constrain/constrained_newton") {
         CHECK(total.energy < edges.energy);
     }
 
+    TEST_CASE("the same minimum is reached from a fan that was shaken") {
+        const Region region = test::saddle();
+        const std::vector<Constraint> locks{lock("left"), lock("top")};
+        Chart start = start_chart(region, locked_border_edges(region, locks), {}).chart;
+        const Minimum calm = test::minimised(region, start, locks);
+        for (std::size_t i = 0; i < start.uv.size(); ++i)
+            start.uv[i] += 0.9 * Vec2(std::sin(7.0 * static_cast<double>(i)),
+                                      std::cos(11.0 * static_cast<double>(i)));
+        REQUIRE(flipped_triangles(region, start.uv).empty());
+        const Minimum shaken = test::minimised(region, start, locks);
+        CHECK(shaken.energy == doctest::Approx(calm.energy).epsilon(1e-12));
+        CHECK(test::rigid_difference(calm.charts[0].uv, shaken.charts[0].uv) < 1e-6);
+    }
+
     TEST_CASE("the same minimum is reached from a circle and from the fan") {
         for (const Region& region : {test::dome(), test::saddle()}) {
             for (const std::vector<Constraint>& locks :

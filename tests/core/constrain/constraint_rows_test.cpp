@@ -102,13 +102,19 @@ TEST_SUITE("core/constrain/constraint_rows") {
 
     TEST_CASE("pins put points in their places; one costs nothing") {
         const Region region = test::saddle();
-        const double free = solve({region}, {}).chart.minimum.energy;
+        const Minimum unpinned = solve({region}, {}).chart.minimum;
+        const double free = unpinned.energy;
         Constraint a = of(ConstraintKind::pin), b = a;
         a.vertex = 0;
         a.place = {12, -7};
         b.vertex = 168;
         b.place = {-30, 60};
-        CHECK(solve({region}, {a}).chart.minimum.energy == doctest::Approx(free).epsilon(1e-10));
+        const Solved one = solve({region}, {a});
+        CHECK(one.chart.minimum.energy == doctest::Approx(free).epsilon(1e-10));
+        CHECK(one.chart.minimum.iterations <= unpinned.iterations + 2);
+        Constraint far = a;
+        far.place = {9e4, -9e4};
+        CHECK(solve({region}, {far, of(ConstraintKind::straight, "left")}).reports[1].kept);
         const Solved two = solve({region}, {a, b});
         CHECK((two.chart.minimum.charts[0].uv[168] - b.place).norm() < 1e-9);
         CHECK(two.chart.minimum.energy > free);

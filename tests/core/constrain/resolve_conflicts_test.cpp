@@ -82,6 +82,43 @@ TEST_SUITE("core/constrain/resolve_conflicts") {
         }
     }
 
+    TEST_CASE("what a relaxed lock held is still held by another that names it") {
+        Region region = test::saddle();
+        region.runs.push_back({"part", {3, 4, 5, 6}});  // of the bottom
+        std::vector<Constraint> constraints{lock("bottom"), lock("part"), range("bottom", 1, 2)};
+        constraints[0].priority = -1;
+        const auto result = test::flattened({&region}, constraints, OnConflict::relax);
+        CHECK(result.relaxed == std::vector<std::size_t>{0});
+        const auto reports = measure_constraints({region}, result.minimum.charts, constraints);
+        CHECK(reports[1].kept);
+        CHECK(reports[2].kept);
+    }
+
+    TEST_CASE("a straight side that gave way is not found again, nor in another region") {
+        Region a = test::dome(6, 0.6), b = a;
+        a.name = "a";
+        b.name = "b";
+        std::vector<Constraint> constraints{lock("bottom"), range("right", -95, -90),
+                                            range("top", -95, -90), range("left", -95, -90)};
+        for (Constraint& constraint : constraints) constraint.region = "b";
+        constraints.emplace_back();
+        constraints.back().kind = ConstraintKind::straight;
+        constraints.back().curve = "bottom";
+        constraints.back().region = "a";
+        const Domain domain({&a, &b});
+        CHECK_FALSE(
+            open_loop(domain, constraint_rows(domain, constraints), constraints).has_value());
+        constraints.back().region = "b";
+        constraints.back().priority = -1;
+        const auto loop = open_loop(domain, constraint_rows(domain, constraints), constraints);
+        REQUIRE(loop.has_value());
+        auto rows = constraint_rows(domain, constraints);
+        rows.erase(std::remove_if(rows.begin(), rows.end(),
+                                  [](const ConstraintRow& row) { return row.constraint == 4; }),
+                   rows.end());
+        CHECK_FALSE(open_loop(domain, rows, constraints).has_value());
+    }
+
     TEST_CASE("constraints that can all hold are no conflict, however far the start is") {
         const Region region = test::dome(8, 1.2);
         std::vector<Constraint> constraints{lock("left"), lock("right"), lock("top"),

@@ -1,0 +1,93 @@
+#include "core/constrain/stiff_curves.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/helpers/minimum.h"
+#include "tests/helpers/shapes.h"
+
+namespace lastflat {
+namespace {
+
+Eigen::VectorXd some_chart(const Region& region) {
+    Eigen::VectorXd x(2 * static_cast<Eigen::Index>(region.positions.size()));
+    for (std::size_t i = 0; i < region.positions.size(); ++i) {
+        const Vec3& p = region.positions[i];
+        x.segment<2>(2 * static_cast<Eigen::Index>(i)) =
+            Vec2(1.1 * p.x() + std::sin(0.2 * p.y()), 0.9 * p.y() + 0.004 * p.x() * p.x());
+    }
+    return x;
+}
+
+/// The largest turn of the flat curve from one edge to the next, beside its mean.
+double roughness(const Region& region, const CurveRun& run, const Points2& uv) {
+    double worst = 0.0, before = 0.0;
+    for (std::size_t i = 1; i + 1 < run.vertices.size(); ++i) {
+        const auto at = [&](std::size_t k) {
+            return uv[static_cast<std::size_t>(run.vertices[k])];
+        };
+        const Vec2 e = at(i) - at(i - 1), f = at(i + 1) - at(i);
+        const double turn = std::atan2(e.x() * f.y() - e.y() * f.x(), e.dot(f));
+        if (i > 1) worst = std::max(worst, std::abs(turn - before));
+        before = turn;
+    }
+    CHECK(region.name == "grid");
+    return worst;
+}
+
+}  // namespace
+
+TEST_SUITE("core/constrain/stiff_curves") {
+    TEST_CASE("only curves locked by edges are stiff, and an unrolled one costs nothing") {
+        const Region region = test::cylinder();
+        const Domain domain({&region});
+        CHECK(StiffCurves(domain, {lock("bottom", Keep::total)}).vertex_pairs().empty());
+        const StiffCurves curves(domain, {lock("bottom"), lock("left")});
+        CHECK(curves.vertex_pairs().size() == 22);
+        const Minimum flat = test::minimised(
+            region, flatten_fixed_border(region, mean_value_weights, circle_border(region)));
+        CHECK(curves.value(domain.coordinates(flat.charts)) < 1e-12);
+        CHECK(curves.value(some_chart(region)) > 1e-6);
+    }
+
+    TEST_CASE("gradient and exact Hessian are the derivatives of the value") {
+        const Region region = test::saddle(4);
+        const Domain domain({&region});
+        const StiffCurves curves(domain, {lock("bottom"), lock("right")});
+        const Eigen::VectorXd x = some_chart(region);
+        Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
+        curves.add_gradient(x, gradient);
+        Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(x.size(), x.size());
+        curves.for_hessian(x, HessianKind::exact,
+                           [&](Index i, Index j, double value) { hessian(i, j) += value; });
+        const double h = 1e-5;
+        for (Eigen::Index i = 0; i < x.size(); ++i) {
+            Eigen::VectorXd a = x, b = x, at_a = Eigen::VectorXd::Zero(x.size()), at_b = at_a;
+            a[i] -= h;
+            b[i] += h;
+            CHECK((curves.value(b) - curves.value(a)) / (2 * h) ==
+                  doctest::Approx(gradient[i]).epsilon(1e-5).scale(gradient.norm()));
+            curves.add_gradient(a, at_a);
+            curves.add_gradient(b, at_b);
+            for (Eigen::Index j = 0; j < x.size(); ++j) {
+                CHECK((at_b[j] - at_a[j]) / (2 * h) ==
+                      doctest::Approx(hessian(std::max(i, j), std::min(i, j)))
+                          .epsilon(1e-5)
+                          .scale(hessian.norm()));
+            }
+        }
+    }
+
+    TEST_CASE("a compressed locked curve of short edges stays smooth, and converges at once") {
+        // The bottom is too long for its surroundings: a dome whose rim is locked.
+        const Region region = test::dome(64, 0.7);
+        const std::vector<Constraint> constraints{lock("bottom"), lock("right"), lock("top"),
+                                                  lock("left")};
+        const auto stiff = test::flattened({&region}, constraints);
+        CHECK(stiff.minimum.converged);
+        CHECK(stiff.minimum.iterations < 40);
+        for (const CurveRun& run : region.runs)
+            CHECK(roughness(region, run, stiff.minimum.charts[0].uv) < 0.02);
+    }
+}
+
+}  // namespace lastflat
