@@ -45,8 +45,9 @@ void check_runs(const Constraint& constraint, const char* field, const std::stri
         const bool runs = std::any_of(r.runs.begin(), r.runs.end(),
                                       [&](const CurveRun& run) { return run.curve == curve; });
         if (!runs) {
-            refuse(constraint, field,
-                   "the curve '" + curve + "' does not run through the region '" + region + "'");
+            std::string what = "the curve '" + curve;
+            what += "' does not run through the region '" + region + "'";
+            refuse(constraint, field, what);
         }
     }
 }

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "core/constrain/optimality_system.h"
-#include "core/constrain/pins.h"
+#include "core/constrain/place_start.h"
 #include "core/numerics/tolerances.h"
 
 namespace lastflat {
@@ -358,45 +358,12 @@ private:
     bool undecided_ = false;  ///< an inequality that pulls the wrong way and is not let go any more
 };
 
-/// The starts, each scaled to its surface's area.
-VectorXd scaled_start(const Domain& domain, const std::vector<Chart>& starts) {
-    VectorXd x = domain.coordinates(starts);
-    for (std::size_t r = 0; r < domain.regions.size(); ++r) {
-        const Region& region = *domain.regions[r];
-        const auto flipped = flipped_triangles(region, starts[r].uv);
-        if (!flipped.empty()) {
-            throw Error(ErrorCode::method_failed,
-                        std::to_string(flipped.size()) + " triangles of the start are flipped");
-        }
-        const double scale = std::sqrt(surface_area(region) / flat_area(region, starts[r].uv));
-        x.segment(2 * domain.first[r], 2 * (domain.first[r + 1] - domain.first[r])) *= scale;
-    }
-    return x;
-}
-
-/// A rigid motion costs nothing, so the pins need not pull the charts to their places.
-VectorXd moved_to_pins(const Problem& problem, const VectorXd& x) {
-    std::vector<Chart> charts = problem.domain.charts(x);
-    for (std::size_t r = 0; r < charts.size(); ++r) {
-        const Index first = problem.domain.first[r], end = problem.domain.first[r + 1];
-        std::vector<PinnedVertex> pins;
-        for (const ConstraintRow& row : problem.rows) {
-            const Term& term = row.terms.front();
-            if (term.kind != TermKind::coordinate || term.a < first || term.a >= end) continue;
-            if (term.b == 0) pins.push_back({term.a - first, Vec2(row.most, 0.0)});
-            if (term.b == 1) pins.back().place.y() = row.most;
-        }
-        move_to_pins(pins, charts[r].uv);
-    }
-    return problem.domain.coordinates(charts);
-}
-
 }  // namespace
 
 Minimum minimise_distortion(const Problem& problem, const std::vector<Chart>& starts,
                             const Progress& progress) {
     Distortion distortion(problem.domain, problem.energy, problem.weights);
-    VectorXd x = scaled_start(problem.domain, starts);
+    VectorXd x = scaled_starts(problem.domain, starts);
     Minimum result;
     if (distortion.value(x) > near_isometry * distortion.total_area()) {
         const std::vector<ConstraintRow> none;
@@ -407,7 +374,7 @@ Minimum minimise_distortion(const Problem& problem, const std::vector<Chart>& st
         approach.run(x, approach_decrease, near_isometry);
         approach.report(result);
     }
-    x = moved_to_pins(problem, x);
+    x = moved_to_pins(problem.domain, problem.rows, x);
     ConstrainedNewton newton(problem, distortion, x, progress);
     result.converged = newton.run(x, 0.0, 0.0);
     newton.report(result);

@@ -261,8 +261,9 @@ std::vector<std::size_t> distinct_rows(const std::vector<ConstraintRow>& rows,
 
 std::vector<std::vector<std::size_t>> coupled_regions(const std::vector<Region>& regions,
                                                       const std::vector<Constraint>& constraints) {
-    std::vector<const Region*> all;
-    for (const Region& region : regions) all.push_back(&region);
+    std::vector<const Region*> all(regions.size());
+    std::transform(regions.begin(), regions.end(), all.begin(),
+                   [](const Region& region) { return &region; });
     DisjointSets sets(regions.size());
     for (const Constraint& constraint : constraints) {
         if (constraint.kind != ConstraintKind::match) continue;

@@ -203,20 +203,22 @@ private:
         std::vector<Role> roles(constraints_.size(), Role::absent);
         for (const std::size_t c : fighting) roles[c] = Role::soft;
         const Minimum best = solve(roles);
-        std::vector<ConflictMember> members;
-        for (const std::size_t c : fighting) members.push_back(member(c, roles, best));
+        std::vector<ConflictMember> members(fighting.size());
+        std::transform(fighting.begin(), fighting.end(), members.begin(),
+                       [&](std::size_t c) { return member(c, roles, best); });
         std::string text;
         for (const ConflictMember& m : members) {
             text += (text.empty() ? "" : ", ") + m.title + " (" + amount(m.off_mm, " mm") + " at " +
                     place(m.position) + ")";
         }
+        const Vec3 first = members.front().position;
         throw Error(ErrorCode::constraints_infeasible,
                     "region '" + names_of(domain_) +
                         "': these constraints cannot all hold; at the best compromise they are off "
                         "by: " +
                         text + "; leave one out or let it give way (\"on_conflict\": \"relax\")")
             .at_option(constraints_[fighting.front()].option)
-            .at_position(members.front().position)
+            .at_position(first)
             .with_conflict(std::move(members));
     }
 
