@@ -123,7 +123,8 @@ void read_list(const char* name, bool locks, ObjectReader& reader, const Request
         constraint.path = {name, std::to_string(place++)};
         for (const ConstraintRequest& earlier : request.constraints) {
             if (is_repeat(constraint, earlier))
-                item.fail("asks again what " + earlier.path[0] + " " + earlier.path[1] + " asks");
+                item.fail("binds what /" + earlier.path[0] + "/" + earlier.path[1] +
+                          " binds in the same way; make one of them");
         }
         request.constraints.push_back(std::move(constraint));
     }

@@ -174,6 +174,10 @@ FlattenRequest read_request(const Field& field, const RequestLimits& limits) {
     read_geometry(reader, limits, request);
     read_constraint_fields(reader, limits, request);
     if (const auto method = reader.find("method")) request.method = read_method(*method);
+    const bool weighs = request.weights.stretch != 1.0 || request.weights.compression != 1.0 ||
+                        !request.weights.zones.empty();
+    if (weighs && request.method.name != Method::isometric)
+        reader.find("weights")->fail("only isometric weighs distortion");
     if (const auto layout = reader.find("layout")) {
         ObjectReader inner(*layout);
         if (const auto arrangement = inner.find("arrangement")) (void)arrangement->choice({"pair"});

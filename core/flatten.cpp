@@ -189,6 +189,17 @@ void report_constraints(const std::vector<Region>& regions, const std::vector<Ch
         check_constraints_kept(result.constraints, options.constraints, result.warnings);
 }
 
+/// A pin that gave way does not say where a chart lies.
+std::vector<Constraint> without(const std::vector<Constraint>& constraints,
+                                const std::vector<std::size_t>& relaxed) {
+    std::vector<Constraint> held;
+    for (std::size_t c = 0; c < constraints.size(); ++c) {
+        if (std::find(relaxed.begin(), relaxed.end(), c) == relaxed.end())
+            held.push_back(constraints[c]);
+    }
+    return held;
+}
+
 /// The charts laid on the sheet, measured and found sound.
 void finish(const std::vector<Region>& regions, std::vector<Group> groups, std::vector<Fan> fans,
             const FlattenOptions& options, FlattenResult& result) {
@@ -208,7 +219,7 @@ void finish(const std::vector<Region>& regions, std::vector<Group> groups, std::
         centres.push_back(fan.fan ? fan.fan->centre : -1);
         append(result.warnings, std::move(fan.warnings));
     }
-    orient_charts(regions, centres, options.constraints, charts);
+    orient_charts(regions, centres, without(options.constraints, relaxed), charts);
     result.sheet = arrange_pair(regions, charts, options.layout_gap_mm);
     result.pairs = measure_pairs(regions, charts);
     report_constraints(regions, charts, relaxed, options, result);

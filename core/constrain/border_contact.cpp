@@ -220,11 +220,21 @@ std::vector<ContactPair> BorderContact::near_pairs(const Eigen::VectorXd& x,
 
 double BorderContact::value(const Eigen::VectorXd& x) const {
     double sum = 0.0;
-    for (const ContactPair& pair : near_pairs(x)) {
+    const auto pairs = near_pairs(x);
+    for (const ContactPair& pair : pairs) {
         const double d = distance_value(point(x, pair.a), point(x, pair.b), point(x, pair.point));
         sum += weight_[static_cast<std::size_t>(pair.point)] * barrier(d / pair.clearance).value;
     }
-    return sum;
+    // In contact round-off may let a vertex slip through.
+    return pairs.empty() || !crosses(x) ? sum : infinity;
+}
+
+bool BorderContact::crosses(const Eigen::VectorXd& x) const {
+    return std::any_of(loops_.begin(), loops_.end(), [&](const Loop& loop) {
+        Points2 outline;
+        for (const Index v : loop.vertices) outline.push_back(point(x, v));
+        return !self_crossings(outline).empty();
+    });
 }
 
 void BorderContact::add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const {

@@ -31,7 +31,7 @@ public:
     [[nodiscard]] std::vector<ContactPair> near_pairs(const Eigen::VectorXd& x,
                                                       double multiple = 1.0) const;
 
-    /// The barrier, mm^2: zero if nothing is near, infinite if a vertex lies on an edge.
+    /// The barrier, mm^2: zero if nothing is near, infinite if a border meets itself.
     [[nodiscard]] double value(const Eigen::VectorXd& x) const;
 
     void add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const;
@@ -63,6 +63,7 @@ private:
         std::vector<double> lengths;  ///< per vertex, half of its two edges on the surface
     };
     [[nodiscard]] double clearance_of(const Loop& loop, std::size_t vertex, std::size_t edge) const;
+    [[nodiscard]] bool crosses(const Eigen::VectorXd& x) const;
     [[nodiscard]] Matrix6 pair_hessian(const ContactPair& pair, const Eigen::VectorXd& x,
                                        HessianKind kind) const;
     template <class Visit>

@@ -77,7 +77,8 @@ public:
 
     std::optional<OpenLoop> run() const {
         for (std::size_t r = 0; r < domain_.regions.size(); ++r) {
-            for (auto check : {&LoopCheck::hubs, &LoopCheck::straight_sides, &LoopCheck::areas}) {
+            for (auto check : {&LoopCheck::pins, &LoopCheck::hubs, &LoopCheck::straight_sides,
+                               &LoopCheck::areas}) {
                 if (auto found = (this->*check)(r)) return found;
             }
         }
@@ -100,6 +101,24 @@ private:
             edges.emplace(a + domain_.first[r], b + domain_.first[r]);
         }
         return edges;
+    }
+
+    /// Two vertices cannot lie in one place.
+    [[nodiscard]] std::optional<OpenLoop> pins(std::size_t r) const {
+        std::map<std::pair<double, double>, std::size_t> places;  // to the row of the x coordinate
+        for (std::size_t k = 0; k + 1 < rows_.size(); ++k) {
+            const Term& term = rows_[k].terms.front();
+            if (term.kind != TermKind::coordinate || term.b != 0) continue;
+            if (domain_.region_of(term.a) != r) continue;
+            const auto [other, is_new] =
+                places.emplace(std::pair(rows_[k].most, rows_[k + 1].most), k);
+            if (is_new || rows_[other->second].vertex == term.a) continue;
+            const ConstraintRow& first = rows_[other->second];
+            return loop({first.constraint, rows_[k].constraint},
+                        domain_.distance(first.vertex, term.a), term.a,
+                        "two vertices cannot lie in one place");
+        }
+        return std::nullopt;
     }
 
     struct Hub {

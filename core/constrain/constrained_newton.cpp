@@ -66,7 +66,8 @@ public:
             progress_.check();
             const Step step = take_step(x);
             if (decrease > 0.0 && step.promised < decrease * energy_) return true;
-            if (hopeless()) return false;
+            contradictory_ = hopeless();
+            if (contradictory_) return false;
             if (step.length == 1.0 && distance_to_optimum() <= nearly_optimal) solve_conditions(x);
             if (step.length == 0.0 && hold_blocking(x)) continue;
             if (step.length == 0.0) return projected_gradient_ <= tolerance::stalled_gradient;
@@ -80,6 +81,7 @@ public:
         minimum.energy = energy_ / distortion_.total_area();
         minimum.projected_gradient = projected_gradient_;
         minimum.worst_error = worst_error_;
+        minimum.contradictory = contradictory_;
         minimum.errors = VectorXd(static_cast<Eigen::Index>(rows_.size()));
         for (std::size_t k = 0; k < rows_.size(); ++k) {
             const auto i = static_cast<Eigen::Index>(k);
@@ -99,6 +101,7 @@ private:
             least_error_ = worst_error_;
             least_at_ = iterations_;
         }
+        if (blocked_) least_at_ = iterations_;  // contact makes steps short, whatever is asked
         double force = 0.0;
         for (std::size_t k = 0; k < rows_.size(); ++k) {
             if (!soft(k))
@@ -309,7 +312,7 @@ private:
     }
 
     /// Moves x along d as far as the merit function falls; returns the step length.
-    double search(VectorXd& x, const VectorXd& d, double slope) const {
+    double search(VectorXd& x, const VectorXd& d, double slope) {
         constexpr double armijo = 1e-4, round_off = 1e-13, smallest = 1e-10;
         const double before = merit(x);
         const double allowance = round_off * std::abs(before);
@@ -317,7 +320,9 @@ private:
             return merit(to) <= before + armijo * t * slope + allowance;
         };
         double t = std::min(1.0, 0.95 * distortion_.collapse_step(x, d));
-        if (contact_) t = std::min(t, contact_->collision_step(x, t * d) * t);
+        const double free = contact_ ? contact_->collision_step(x, t * d) : 1.0;
+        blocked_ = free < 1.0;
+        t *= free;
         for (bool first = true; t > smallest; t *= 0.5, first = false) {
             VectorXd to = x + t * d;
             bool accepted = falls(to, t);
@@ -355,6 +360,8 @@ private:
     double least_error_ = std::numeric_limits<double>::infinity();
     int iterations_ = 0, factorizations_ = 0, least_at_ = 0;
     bool near_ = false;
+    bool blocked_ = false;  ///< the last step would have led to a collision
+    bool contradictory_ = false;
     bool undecided_ = false;  ///< an inequality that pulls the wrong way and is not let go any more
 };
 

@@ -34,7 +34,8 @@ struct Minimum {
                                       ///< square root of the area: no unit
     double worst_error = 0.0;  ///< of a row that is kept exactly, as a share of its reference
     bool converged = false;
-    Eigen::VectorXd errors;  ///< per row, mm
+    bool contradictory = false;  ///< it ended because the constraints seem to contradict each other
+    Eigen::VectorXd errors;      ///< per row, mm
 };
 
 /// Minimises the distortion of charts subject to constraints: sequential quadratic programming with

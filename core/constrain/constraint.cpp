@@ -18,14 +18,16 @@ std::string_view name(ConstraintKind kind) {
 }
 
 std::string Constraint::title() const {
+    const std::string where =
+        region.empty() || kind == ConstraintKind::total_area ? "" : " in " + region;
     switch (kind) {
-        case ConstraintKind::lock: return "lock of " + curve;
-        case ConstraintKind::range: return "range of " + curve;
-        case ConstraintKind::match: return "match of " + curve + " with " + with_curve;
-        case ConstraintKind::straight: return "straight " + curve;
+        case ConstraintKind::lock: return "lock of " + curve + where;
+        case ConstraintKind::range: return "range of " + curve + where;
+        case ConstraintKind::match: return "match of " + curve + where + " with " + with_curve;
+        case ConstraintKind::straight: return "straight " + curve + where;
         case ConstraintKind::total_area:
             return region.empty() ? "total area" : "total area of " + region;
-        case ConstraintKind::pin: return "pin of vertex " + std::to_string(vertex);
+        case ConstraintKind::pin: return "pin of vertex " + std::to_string(vertex) + where;
     }
     return {};
 }

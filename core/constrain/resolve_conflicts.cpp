@@ -22,15 +22,17 @@ std::string amount(double value, const char* unit) {
     return text;
 }
 
-/// A search for the smallest set that fights ends after so many solves; what it has not looked at
-/// then counts as fighting.
-constexpr int most_solves = 300;
+/// A search for the smallest set that fights ends after so many Newton steps; what it has not
+/// looked at then counts as fighting.
+constexpr int most_steps = 2000;
 
-/// "lateral", "lateral and medial": for people.
+/// "region 'lateral'", "regions 'lateral' and 'medial'": for people.
 std::string names_of(const Domain& domain) {
-    std::string text;
-    for (const Region* region : domain.regions)
-        text += (text.empty() ? "" : " and ") + region->name;
+    std::string text = domain.regions.size() > 1 ? "regions " : "region ";
+    for (std::size_t r = 0; r < domain.regions.size(); ++r) {
+        if (r > 0) text += " and ";
+        text += "'" + domain.regions[r]->name + "'";
+    }
     return text;
 }
 
@@ -68,7 +70,9 @@ public:
         }
         result.minimum = solve(without_soft());
         while (!kept(result.minimum)) {
+            if (!result.minimum.contradictory) give_up(result.minimum);
             const auto fighting = smallest_conflict();
+            if (fighting.size() == 1) give_up(result.minimum);  // alone, each of them can hold
             if (demands_.on_conflict == OnConflict::fail) fail(fighting);
             relax(fighting.front());
             result.minimum = solve(without_soft());
@@ -94,7 +98,6 @@ private:
 
     [[nodiscard]] Minimum solve_from(const std::vector<Chart>& starts,
                                      const std::vector<Role>& roles) const {
-        ++solves_;
         std::vector<ConstraintRow> rows;
         std::vector<double> compliance;
         for (const std::size_t k : chosen_rows(roles)) {
@@ -106,7 +109,9 @@ private:
         problem.contact = demands_.contact;
         problem.stiff_curves = &stiff_curves_;
         problem.weights = demands_.weights;
-        return minimise_distortion(problem, starts, progress_);
+        Minimum minimum = minimise_distortion(problem, starts, progress_);
+        steps_ += minimum.iterations;
+        return minimum;
     }
 
     /// What the roles leave to be solved: exact rows without repeats, and the soft ones.
@@ -142,7 +147,7 @@ private:
         std::vector<std::size_t> fighting;
         for (const std::size_t c : order) {
             roles[c] = Role::absent;
-            if (solves_ < most_solves && !kept(solve(roles))) continue;
+            if (steps_ < most_steps && !kept(solve(roles))) continue;
             roles[c] = Role::kept;
             fighting.push_back(c);
         }
@@ -182,6 +187,16 @@ private:
                                  });
     }
 
+    [[noreturn]] void give_up(const Minimum& minimum) const {
+        throw Error(ErrorCode::method_failed,
+                    names_of(domain_) + ": the constraints were not reached in " +
+                        std::to_string(minimum.iterations) +
+                        " steps, which does not mean that they cannot hold: the largest error is " +
+                        amount(minimum.worst_error, "") +
+                        " of its length; cut the region so that it opens wider, or ask for less")
+            .at_option({"constraints"});
+    }
+
     [[noreturn]] void fail(const OpenLoop& loop) const {
         std::vector<ConflictMember> members;
         std::string names;
@@ -191,8 +206,7 @@ private:
             names += (names.empty() ? "" : ", ") + constraints_[c].title();
         }
         throw Error(ErrorCode::constraints_infeasible,
-                    "region '" + names_of(domain_) + "': " + names +
-                        " cannot all hold: " + loop.why +
+                    names_of(domain_) + ": " + names + " cannot all hold: " + loop.why +
                         "; leave one out or let it give way (\"on_conflict\": \"relax\")")
             .at_option(constraints_[loop.constraints.front()].option)
             .at_position(loop.position)
@@ -213,8 +227,8 @@ private:
         }
         const Vec3 first = members.front().position;
         throw Error(ErrorCode::constraints_infeasible,
-                    "region '" + names_of(domain_) +
-                        "': these constraints cannot all hold; at the best compromise they are off "
+                    names_of(domain_) +
+                        ": these constraints cannot all hold; at the best compromise they are off "
                         "by: " +
                         text + "; leave one out or let it give way (\"on_conflict\": \"relax\")")
             .at_option(constraints_[fighting.front()].option)
@@ -248,14 +262,14 @@ private:
     const Progress& progress_;
     const std::vector<ConstraintRow> rows_;
     const StiffCurves stiff_curves_;
-    mutable int solves_ = 0;
+    mutable int steps_ = 0;  ///< of all solves
     std::vector<Role> role_;
     std::vector<double> compliance_;  ///< per row, while it is soft
 };
 
 Warning not_converged(const Domain& domain, const Minimum& minimum) {
     return {"not_converged",
-            "region '" + names_of(domain) + "' is sound but not at its minimum after " +
+            names_of(domain) + ": sound, but not at the minimum after " +
                 std::to_string(minimum.iterations) + " Newton steps: its projected gradient is " +
                 amount(minimum.projected_gradient, ""),
             std::nullopt};

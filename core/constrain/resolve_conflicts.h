@@ -31,9 +31,11 @@ struct Demands {
 ///         least important one of every set that fights gave way; it still pulls, with at most a
 ///         tenth of the size of the surface, so that it does not distort the rest beyond measure.
 ///         Warning `not_converged` if the minimum was not reached (needles, slender shapes).
-/// Throws: Error{constraints_infeasible} with the smallest set found of constraints that fight: no
-///         member of it can be left out; how far each is off at the best compromise, and where.
-///         Others as `minimise_distortion`.
+/// Throws: Error{method_failed} if the constraints were not reached although nothing shows that
+/// they
+///         contradict each other (stuck in contact); Error{constraints_infeasible} with the
+///         smallest set found of constraints that fight: no member of it can be left out; how far
+///         each is off at the best compromise, and where. Others as `minimise_distortion`.
 [[nodiscard]] ConstrainedChart least_distortion(const Domain& domain,
                                                 const std::vector<Chart>& starts,
                                                 const Demands& demands, std::size_t threads,

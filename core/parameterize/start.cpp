@@ -1,5 +1,7 @@
 #include "core/parameterize/start.h"
 
+#include <Eigen/Geometry>
+
 #include "core/border/convex_border.h"
 #include "core/numerics/polygon.h"
 #include "core/parameterize/fixed_border.h"
@@ -16,6 +18,29 @@ Chart floating_chart(const Region& region, const std::vector<bool>& locked, Weig
                                    border_polygon(region, rings, order, locked, angles));
 }
 
+/// Why a chart cannot be the start of an energy; empty: it can.
+std::string fault_of(const Region& region, const Chart& chart) {
+    const auto flipped = flipped_triangles(region, chart.uv);
+    if (!flipped.empty()) return std::to_string(flipped.size()) + " triangles of it are flipped";
+    Points2 outline;
+    for (const Index v : region.border) outline.push_back(chart.uv[static_cast<std::size_t>(v)]);
+    return self_crossings(outline).empty() ? "" : "its border crosses itself";
+}
+
+/// The region seen along its mean normal: of a flat one, itself.
+Chart shadow(const Region& region) {
+    Vec3 normal = Vec3::Zero();
+    for (const Triangle& t : region.triangles) {
+        normal += (region.position(t[1]) - region.position(t[0]))
+                      .cross(region.position(t[2]) - region.position(t[0]));
+    }
+    Chart chart;
+    if (!(normal.norm() > 0.0)) return chart;
+    const Vec3 across = normal.unitOrthogonal(), along = across.cross(normal.normalized());
+    for (const Vec3& p : region.positions) chart.uv.emplace_back(along.dot(p), across.dot(p));
+    return chart;
+}
+
 /// Why the geodesic fan cannot be the start, or nothing and the chart.
 std::string try_fan(const Region& region, const std::vector<bool>& locked, AngleRule angles,
                     Chart& chart) {
@@ -24,17 +49,24 @@ std::string try_fan(const Region& region, const std::vector<bool>& locked, Angle
     } catch (const Error& error) {
         return error.what();
     }
-    const auto flipped = flipped_triangles(region, chart.uv);
-    if (!flipped.empty()) return std::to_string(flipped.size()) + " triangles of it are flipped";
-    Points2 outline;
-    for (const Index v : region.border) outline.push_back(chart.uv[static_cast<std::size_t>(v)]);
-    return self_crossings(outline).empty() ? "" : "its border crosses itself";
+    return fault_of(region, chart);
 }
 
 Start energy_start(const Region& region, const std::vector<bool>& locked, AngleRule angles) {
     Start start;
     const std::string why = try_fan(region, locked, angles, start.chart);
     if (why.empty()) return start;
+    Chart flat = shadow(region);
+    if (!flat.uv.empty() && fault_of(region, flat).empty()) {
+        start.chart = std::move(flat);
+        start.warnings.push_back({"start_replaced",
+                                  "region '" + region.name +
+                                      "' starts from its shadow on a plane, not from the geodesic "
+                                      "fan: " +
+                                      why,
+                                  std::nullopt});
+        return start;
+    }
     start.chart = flatten_fixed_border(region, mean_value_weights, circle_border(region));
     const auto flipped = flipped_triangles(region, start.chart.uv);
     if (!flipped.empty()) {

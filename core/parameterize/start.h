@@ -15,7 +15,8 @@ struct Start {
 
 /// In:     per border edge, whether its length is locked (see `border_polygon`).
 /// Out:    for the energies a chart without flipped triangles: the geodesic fan or, where that
-///         folds or fails, mean values on a circle, with the warning `start_replaced`. For harmonic
+///         folds, fails or crosses its own border, the region seen along its mean normal, or mean
+///         values on a circle, with the warning `start_replaced`. For harmonic
 ///         and wachspress the warning `negative_weights` where there are such weights: the map may
 ///         then fold.
 /// Throws: Error{method_failed, solver_failed} if there is no such chart; other methods as they do.

@@ -171,6 +171,36 @@ TEST_SUITE("core/flatten") {
         CHECK(minimum.energy == doctest::Approx(1.0).epsilon(1e-10));
     }
 
+    TEST_CASE("a pin that gave way does not move the chart from the one that holds") {
+        const SampleLast last = make_sample_last();
+        FlattenOptions options = test::sample_options(last);
+        options.on_conflict = OnConflict::relax;
+        const FlattenResult free = test::flatten_sample(last, options);
+        const Region& region = free.regions[0].region;
+        const auto run = std::find_if(region.runs.begin(), region.runs.end(),
+                                      [](const CurveRun& r) { return r.curve == "centre_front"; });
+        REQUIRE(run != region.runs.end());
+        for (const Index end : {run->vertices.front(), run->vertices.back()}) {
+            Constraint pin;  // further apart than the locked curve is long
+            pin.kind = ConstraintKind::pin;
+            pin.region = region.name;
+            pin.vertex = region.source_vertices[static_cast<std::size_t>(end)];
+            pin.priority = options.constraints.size() == 2 ? 1 : -1;
+            pin.place = Vec2(500.0 * pin.priority, 7.0);
+            options.constraints.push_back(pin);
+        }
+        const FlattenResult result = test::flatten_sample(last, options);
+        std::size_t relaxed = 0;
+        for (const ConstraintReport& report : result.constraints) {
+            CHECK(report.kept == !report.relaxed);
+            if (report.relaxed) {
+                CHECK(report.constraint == 3);
+                ++relaxed;
+            }
+        }
+        CHECK(relaxed == 1);
+    }
+
     TEST_CASE("a lock on a curve that is not there is an error at its field") {
         const SampleLast last = make_sample_last();
         FlattenOptions options = test::sample_options(last);

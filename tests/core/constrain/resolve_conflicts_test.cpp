@@ -157,6 +157,22 @@ TEST_SUITE("core/constrain/resolve_conflicts") {
         CHECK(found(side)->gap_mm > 10.0);
     }
 
+    TEST_CASE("two vertices pinned to one place are found before any solve") {
+        const Region region = test::dome(6, 0.6);
+        const Domain domain({&region});
+        Constraint a;
+        a.kind = ConstraintKind::pin;
+        a.vertex = 0;
+        a.place = {5, 5};
+        Constraint b = a;
+        b.vertex = 6;
+        const std::vector<Constraint> constraints{a, b};
+        const auto loop = open_loop(domain, constraint_rows(domain, constraints), constraints);
+        REQUIRE(loop.has_value());
+        CHECK(loop->constraints.size() == 2);
+        CHECK(loop->gap_mm == doctest::Approx(region.distance(0, 6)));
+    }
+
     TEST_CASE("a vertex whose neighbourhood is locked must close by itself") {
         const Index centre = 24;  // of a grid of 6 x 6
         const auto found = [&](Region region) {
