@@ -71,27 +71,14 @@ FlatRegion certified(const Region& region, const Chart& chart, const FlattenOpti
     return flat;
 }
 
-/// The charts of regions that depend on each other, and how they were found.
-struct Refined {
-    Minimum minimum;
-    std::vector<std::size_t> relaxed;
-    std::vector<Warning> warnings;
-};
-
 template <class T>
 void append(std::vector<T>& to, std::vector<T> from) {
     std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
-/// Charts at the least of an energy.
-Refined minimised(const Domain& domain, const std::vector<Chart>& starts, const Demands& demands,
-                  std::size_t threads, const Progress& progress) {
-    ConstrainedChart best = least_distortion(domain, starts, demands, threads, progress);
-    return {std::move(best.minimum), std::move(best.relaxed), std::move(best.warnings)};
-}
-
-Refined isometric(const Domain& domain, const std::vector<Chart>& starts,
-                  const FlattenOptions& options, std::size_t threads, const Progress& progress) {
+ConstrainedChart isometric(const Domain& domain, const std::vector<Chart>& starts,
+                           const FlattenOptions& options, std::size_t threads,
+                           const Progress& progress) {
     std::vector<std::vector<double>> weights;
     for (const Region* region : domain.regions)
         weights.push_back(triangle_weights(*region, options.weights.zones));
@@ -99,25 +86,27 @@ Refined isometric(const Domain& domain, const std::vector<Chart>& starts,
     const WeightedDirichlet uneven(options.weights.stretch, options.weights.compression);
     const IsotropicEnergy& energy =
         options.weights.even() ? static_cast<const IsotropicEnergy&>(even) : uneven;
-    return minimised(domain, starts,
-                     {options.constraints, energy, std::move(weights), options.on_conflict, true},
-                     threads, progress);
+    return least_distortion(
+        domain, starts,
+        {options.constraints, energy, std::move(weights), options.on_conflict, true}, threads,
+        progress);
 }
 
 /// The starts as they become the answer: at the least of their energy, or scaled as a whole.
-Refined refined(const Domain& domain, std::vector<Chart> charts, const FlattenOptions& options,
-                std::size_t threads, const Progress& progress) {
+ConstrainedChart refined(const Domain& domain, std::vector<Chart> charts,
+                         const FlattenOptions& options, std::size_t threads,
+                         const Progress& progress) {
     const std::vector<Constraint> none;
     const bool mips = options.method.name == MethodName::mips;
     switch (options.method.name) {
         case MethodName::isometric: return isometric(domain, charts, options, threads, progress);
         case MethodName::green_lagrange:
-            return minimised(domain, charts, {none, GreenLagrange()}, threads, progress);
+            return least_distortion(domain, charts, {none, GreenLagrange()}, threads, progress);
         default: break;
     }
-    Refined result;
+    ConstrainedChart result;
     if (mips) {
-        result = minimised(domain, charts, {none, Mips()}, threads, progress);
+        result = least_distortion(domain, charts, {none, Mips()}, threads, progress);
         charts = std::move(result.minimum.charts);
     }
     result.minimum.charts.clear();
@@ -128,9 +117,9 @@ Refined refined(const Domain& domain, std::vector<Chart> charts, const FlattenOp
     return result;
 }
 
-Refined refine(const std::vector<std::size_t>& group, const std::vector<Region>& regions,
-               std::vector<Start>& starts, const FlattenOptions& options, std::size_t threads,
-               const Progress& progress) {
+ConstrainedChart refine(const std::vector<std::size_t>& group, const std::vector<Region>& regions,
+                        std::vector<Start>& starts, const FlattenOptions& options,
+                        std::size_t threads, const Progress& progress) {
     std::vector<const Region*> parts;
     std::vector<Chart> charts;
     std::vector<Warning> warnings;
@@ -139,7 +128,7 @@ Refined refine(const std::vector<std::size_t>& group, const std::vector<Region>&
         charts.push_back(std::move(starts[r].chart));
         append(warnings, std::move(starts[r].warnings));
     }
-    Refined result = refined(Domain(parts), std::move(charts), options, threads, progress);
+    ConstrainedChart result = refined(Domain(parts), std::move(charts), options, threads, progress);
     append(warnings, std::move(result.warnings));
     result.warnings = std::move(warnings);
     return result;
@@ -174,7 +163,7 @@ Fan fan_of(const Region& region, const FlattenOptions& options, const Progress& 
 /// Regions that depend on each other, by their places in the list.
 struct Group {
     std::vector<std::size_t> regions;
-    Refined refined;
+    ConstrainedChart refined;
 };
 
 void report_constraints(const std::vector<Region>& regions, const std::vector<Chart>& charts,

@@ -52,7 +52,6 @@ TEST_SUITE("api/flatten_request") {
                             {"kind": "match", "curve": "heel", "region": "exterior"},
                             {"kind": "pin", "point": "toe_point", "at_mm": [1, 2], "priority": 7}],
             "on_conflict": "relax",
-            "weights": {"compression": 4, "zones": [{"point": "toe_point", "within_mm": 9, "weight": 3}]},
             "material": {"stretch_max_percent": 5, "compress_max_percent": 2},
             "method": {"name": "geodesic_fan", "angles": "averaged_conformal"},
             "layout": {"arrangement": "pair"}, "tag": "order-4711"})");
@@ -80,11 +79,24 @@ TEST_SUITE("api/flatten_request") {
         CHECK(request.constraints[4].priority == 7);
         CHECK(request.constraints[4].path == std::vector<std::string>{"constraints", "2"});
         CHECK(request.on_conflict == Conflict::relax);
-        CHECK(request.weights.compression == 4.0);
-        CHECK(request.weights.zones[0].vertex == 80);
         CHECK(request.material->compress_max_percent == 2.0);
         CHECK(request.method.angles == Angles::averaged_conformal);
         CHECK(request.tag == "order-4711");
+    }
+
+    TEST_CASE("weights and their zones are read") {
+        const FlattenRequest request = flatten_request_from_json(R"({
+            "points": {"toe_point": {"vertex": 80}},
+            "weights": {"compression": 4, "zones": [
+                {"point": "toe_point", "within_mm": 9, "weight": 3},
+                {"curve": "heel", "within_mm": 5, "weight": 0.5},
+                {"vertices": [1, 2, 3], "weight": 2}]}})");
+        CHECK(request.weights.stretch == 1.0);
+        CHECK(request.weights.compression == 4.0);
+        REQUIRE(request.weights.zones.size() == 3);
+        CHECK(request.weights.zones[0].vertex == 80);
+        CHECK(request.weights.zones[1].curve == "heel");
+        CHECK(request.weights.zones[2].vertices.size() == 3);
     }
 
     TEST_CASE("a broken field is named by its JSON pointer") {
@@ -139,6 +151,7 @@ TEST_SUITE("api/flatten_request") {
             {R"({"weights": {"zones": [{"weight": 2}]}})", "/weights/zones/0"},
             {R"({"weights": {"zones": [{"curve": "a", "weight": 2}]}})", "/weights/zones/0"},
             {R"({"weights": {"zones": [{"curve": "a", "within_mm": 5}]}})", "/weights/zones/0"},
+            {R"({"weights": {"stretch": 2}, "method": {"name": "mips"}})", "/weights"},
             {R"({"material": {"stretch_max_percent": 5}})", "/material"},
             {R"({"method": {"name": "magic"}})", "/method/name"},
             {R"({"method": {"name": "isometric", "border": "circle"}})", "/method/border"},
