@@ -226,7 +226,8 @@ double BorderContact::value(const Eigen::VectorXd& x) const {
         sum += weight_[static_cast<std::size_t>(pair.point)] * barrier(d / pair.clearance).value;
     }
     // In contact round-off may let a vertex slip through.
-    return pairs.empty() || !crosses(x) ? sum : infinity;
+    if (!pairs.empty() && crosses(x)) return infinity;
+    return sum;
 }
 
 bool BorderContact::crosses(const Eigen::VectorXd& x) const {
