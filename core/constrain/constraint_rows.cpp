@@ -13,9 +13,8 @@ namespace {
 
 using Edge = std::pair<Index, Index>;
 
-/// A stretch of a curve in one region, in the domain's vertices.
+/// A stretch of a curve, in the domain's vertices.
 struct Side {
-    std::size_t region;
     std::vector<Index> vertices;
 };
 
@@ -70,7 +69,7 @@ private:
     [[nodiscard]] std::vector<Side> in_domain(const Sides& runs) const {
         std::vector<Side> result;
         for (const auto& [r, run] : runs) {
-            Side side{r, run->vertices};
+            Side side{run->vertices};
             for (Index& v : side.vertices) v += domain_.first[r];
             result.push_back(std::move(side));
         }

@@ -18,6 +18,15 @@ std::vector<double> border_lengths(const Region& region) {
     return lengths;
 }
 
+Vec3 area_vector(const Region& region) {
+    Vec3 sum = Vec3::Zero();
+    for (const Triangle& t : region.triangles) {
+        sum += 0.5 * (region.position(t[1]) - region.position(t[0]))
+                         .cross(region.position(t[2]) - region.position(t[0]));
+    }
+    return sum;
+}
+
 double surface_area(const Region& region) {
     double area = 0.0;
     for (const Triangle& t : region.triangles) {

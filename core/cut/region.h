@@ -39,6 +39,9 @@ struct Region {
 /// The 3D length of every border edge; edge i runs from border[i] to its successor. mm.
 [[nodiscard]] std::vector<double> border_lengths(const Region& region);
 
+/// The mean normal times the area, mm^2.
+[[nodiscard]] Vec3 area_vector(const Region& region);
+
 /// Surface area, mm^2.
 [[nodiscard]] double surface_area(const Region& region);
 

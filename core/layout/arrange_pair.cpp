@@ -8,16 +8,6 @@
 namespace lastflat {
 namespace {
 
-/// The area vector: the mean normal times the area.
-Vec3 facing(const Region& region) {
-    Vec3 sum = Vec3::Zero();
-    for (const Triangle& t : region.triangles) {
-        sum += (region.position(t[1]) - region.position(t[0]))
-                   .cross(region.position(t[2]) - region.position(t[0]));
-    }
-    return sum;
-}
-
 /// Whether most of the piece lies below its base line.
 bool hangs_below(const Region& region, const Chart& chart, const BaseLine& line) {
     double mean = 0.0;
@@ -30,12 +20,12 @@ bool hangs_below(const Region& region, const Chart& chart, const BaseLine& line)
 std::vector<bool> mirrored_regions(const std::vector<Region>& regions,
                                    const std::vector<Chart>& charts) {
     const Vec3 axis = long_axis(regions);
-    const Vec3 up = facing(regions.front()).cross(axis);
+    const Vec3 up = area_vector(regions.front()).cross(axis);
     std::vector<bool> mirrored;
     for (std::size_t r = 0; r < regions.size(); ++r) {
         const auto line = named_base_line(regions[r]);
         mirrored.push_back(line ? hangs_below(regions[r], charts[r], *line)
-                                : facing(regions[r]).cross(axis).dot(up) < 0.0);
+                                : area_vector(regions[r]).cross(axis).dot(up) < 0.0);
     }
     return mirrored;
 }

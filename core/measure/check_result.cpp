@@ -16,9 +16,7 @@ std::string first_places(const Region& region, const std::vector<Index>& triangl
 
 void check_crossings(const Region& region, const Points2& uv, MethodName method,
                      std::vector<Warning>& warnings) {
-    Points2 outline;
-    for (const Index v : region.border) outline.push_back(uv[static_cast<std::size_t>(v)]);
-    const auto crossings = self_crossings(outline);
+    const auto crossings = self_crossings(flat_border(region, uv));
     if (crossings.empty()) return;
     const Vec3& a = region.position(region.border[static_cast<std::size_t>(crossings.front().a)]);
     const Vec3& b = region.position(region.border[static_cast<std::size_t>(crossings.front().b)]);

@@ -53,9 +53,7 @@ Metrics measure_distortion(const Region& region, const Points2& uv) {
     m.area_error = std::abs(m.area_2d_mm2 - m.area_3d_mm2) / m.area_3d_mm2;
     m.area_error_p95 = weighted_quantile(std::move(area_errors), 0.95);
     m.area_verdict = area_verdict(m.area_error);
-    Points2 outline;
-    for (const Index v : region.border) outline.push_back(uv[static_cast<std::size_t>(v)]);
-    m.border_crossings = static_cast<Index>(self_crossings(outline).size());
+    m.border_crossings = static_cast<Index>(self_crossings(flat_border(region, uv)).size());
     return m;
 }
 

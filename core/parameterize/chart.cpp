@@ -35,6 +35,13 @@ std::vector<Triangle> source_triangles(const Region& region, const std::vector<I
     return result;
 }
 
+Points2 flat_border(const Region& region, const Points2& uv) {
+    Points2 outline;
+    outline.reserve(region.border.size());
+    for (const Index v : region.border) outline.push_back(uv[static_cast<std::size_t>(v)]);
+    return outline;
+}
+
 double flat_area(const Region& region, const Points2& uv) {
     double area = 0.0;
     for (const Triangle& t : region.triangles) area += 0.5 * doubled_area_of(t, uv);

@@ -17,6 +17,9 @@ struct Chart {
 [[nodiscard]] std::vector<Triangle> source_triangles(const Region& region,
                                                      const std::vector<Index>& triangles);
 
+/// The border loop in the plane, in its order.
+[[nodiscard]] Points2 flat_border(const Region& region, const Points2& uv);
+
 /// Flat area, mm^2, triangles counted with their sign.
 [[nodiscard]] double flat_area(const Region& region, const Points2& uv);
 

@@ -22,18 +22,12 @@ Chart floating_chart(const Region& region, const std::vector<bool>& locked, Weig
 std::string fault_of(const Region& region, const Chart& chart) {
     const auto flipped = flipped_triangles(region, chart.uv);
     if (!flipped.empty()) return std::to_string(flipped.size()) + " triangles of it are flipped";
-    Points2 outline;
-    for (const Index v : region.border) outline.push_back(chart.uv[static_cast<std::size_t>(v)]);
-    return self_crossings(outline).empty() ? "" : "its border crosses itself";
+    return self_crossings(flat_border(region, chart.uv)).empty() ? "" : "its border crosses itself";
 }
 
 /// The region seen along its mean normal: of a flat one, itself.
 Chart shadow(const Region& region) {
-    Vec3 normal = Vec3::Zero();
-    for (const Triangle& t : region.triangles) {
-        normal += (region.position(t[1]) - region.position(t[0]))
-                      .cross(region.position(t[2]) - region.position(t[0]));
-    }
+    const Vec3 normal = area_vector(region);
     Chart chart;
     if (!(normal.norm() > 0.0)) return chart;
     const Vec3 across = normal.unitOrthogonal(), along = across.cross(normal.normalized());
