@@ -40,4 +40,18 @@ std::optional<std::string> decode_base64(std::string_view text) {
     return bytes;
 }
 
+std::string encode_base64url(std::string_view bytes) {
+    constexpr char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+    std::string text;
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : bytes) {
+        bits = bits << 8 | static_cast<unsigned char>(c);
+        for (count += 8; count >= 6; count -= 6)
+            text.push_back(alphabet[bits >> (count - 6) & 63u]);
+    }
+    if (count > 0) text.push_back(alphabet[bits << (6 - count) & 63u]);
+    return text;
+}
+
 }  // namespace lastflat::api

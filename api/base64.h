@@ -11,4 +11,7 @@ namespace lastflat::api {
 /// space is not allowed.
 [[nodiscard]] std::optional<std::string> decode_base64(std::string_view text);
 
+/// base64url without padding.
+[[nodiscard]] std::string encode_base64url(std::string_view bytes);
+
 }  // namespace lastflat::api

@@ -224,16 +224,25 @@ JsonSubmission json_submission_from_json(std::string_view text, const RequestLim
     ObjectReader reader(Field{document, ""});
     JsonSubmission submission;
     const auto model = reader.find("model");
-    if (!model) throw InvalidRequest("/model", "must be given: {\"data\": base64}");
+    if (!model) {
+        throw InvalidRequest("/model", "must be given: {\"data\": base64} or {\"asset_id\": id}");
+    }
     ObjectReader inner(*model);
-    const auto data = inner.find("data");
+    const auto data = inner.find("data"), asset = inner.find("asset_id");
     inner.finish();
-    if (!data || !data->value.is_string()) model->fail("must have \"data\", the model in base64");
-    auto bytes = decode_base64(data->value.get_ref<const std::string&>());
-    if (!bytes) data->fail("is not base64");
-    submission.model = std::move(*bytes);
-    if (const auto request = reader.find("request"))
+    if (data.has_value() == asset.has_value())
+        model->fail("must have \"data\", the model in base64, or \"asset_id\", not both");
+    if (asset) submission.asset_id = asset->text(limits.name_bytes);
+    if (data) {
+        if (!data->value.is_string()) data->fail("must be text, the model in base64");
+        auto bytes = decode_base64(data->value.get_ref<const std::string&>());
+        if (!bytes) data->fail("is not base64");
+        submission.model = std::move(*bytes);
+    }
+    if (const auto request = reader.find("request")) {
         submission.request = read_request(*request, limits);
+        submission.request_text = request->value.dump();
+    }
     reader.finish();
     return submission;
 }

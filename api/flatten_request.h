@@ -129,11 +129,14 @@ struct RequestLimits {
 
 /// A request sent as JSON alone: the model in base64 beside the constraints.
 struct JsonSubmission {
-    std::string model;  ///< decoded
+    std::string model;     ///< decoded; empty if `asset_id` is given
+    std::string asset_id;  ///< of a model that was sent before
     FlattenRequest request;
+    std::string request_text;  ///< its JSON; empty if absent
 };
 
-/// Reads {"model": {"data": base64}, "request": {...}}; pointers begin at this document.
+/// Reads {"model": {"data": base64} or {"asset_id": id}, "request": {...}}; pointers begin at this
+/// document.
 /// Throws: InvalidRequest naming the field.
 [[nodiscard]] JsonSubmission json_submission_from_json(std::string_view text,
                                                        const RequestLimits& limits = {});

@@ -87,34 +87,39 @@ Json to_json(const FanResult& f) {
             {"spokes", std::move(spokes)}};
 }
 
-Json to_json(const RegionResult& r) {
-    Json segments = Json::array(), curves = Json::array();
+void add_geometry(const RegionResult& r, Json& json) {
+    Json segments = Json::array();
     for (const auto& s : r.segments) {
         segments.push_back({{"curve", s.curve}, {"first", s.first}, {"last", s.last}});
     }
-    for (const auto& c : r.curves) curves.push_back(to_json(c));
-    Json json{{"name", r.name},
-              {"method", r.method},
-              {"uv_mm", r.uv_mm},
-              {"triangles", r.triangles},
-              {"source_vertices", r.source_vertices},
-              {"outline", {{"points_mm", r.outline_mm}, {"segments", std::move(segments)}}},
-              {"curves", std::move(curves)},
-              {"metrics", to_json(r.metrics)},
-              {"stretch", to_json(r.stretch)},
-              {"iterations", r.iterations}};
+    json["uv_mm"] = r.uv_mm;
+    json["triangles"] = r.triangles;
+    json["source_vertices"] = r.source_vertices;
+    json["outline"] = {{"points_mm", r.outline_mm}, {"segments", std::move(segments)}};
+}
+
+Json to_json(const RegionResult& r, bool with_geometry) {
+    Json json{{"name", r.name}, {"method", r.method}};
+    if (with_geometry) add_geometry(r, json);
+    json["curves"] = Json::array();
+    for (const auto& c : r.curves) json["curves"].push_back(to_json(c));
+    json["metrics"] = to_json(r.metrics);
+    json["stretch"] = to_json(r.stretch);
+    json["iterations"] = r.iterations;
     if (r.energy) json["energy"] = *r.energy;
     if (r.projected_gradient) json["projected_gradient"] = *r.projected_gradient;
-    if (r.fan) json["fan"] = to_json(*r.fan);
+    if (r.fan && with_geometry) json["fan"] = to_json(*r.fan);
     return json;
 }
 
 }  // namespace
 
-std::string to_json(const FlattenResult& result) {
+namespace {
+
+Json document_of(const FlattenResult& result, bool with_geometry) {
     Json regions = Json::array(), pairs = Json::array(), constraints = Json::array(),
          placements = Json::array(), warnings = Json::array();
-    for (const auto& r : result.regions) regions.push_back(to_json(r));
+    for (const auto& r : result.regions) regions.push_back(to_json(r, with_geometry));
     for (const auto& p : result.pairs) {
         pairs.push_back({{"curve", p.curve},
                          {"a", p.a},
@@ -133,22 +138,36 @@ std::string to_json(const FlattenResult& result) {
         warnings.push_back({{"code", w.code}, {"detail", w.detail}});
         if (w.position) warnings.back()["position"] = *w.position;
     }
-    const Json document{{"regions", std::move(regions)},
-                        {"pairs", std::move(pairs)},
-                        {"constraints", std::move(constraints)},
-                        {"layout",
-                         {{"width_mm", result.width_mm},
-                          {"height_mm", result.height_mm},
-                          {"placements", std::move(placements)}}},
-                        {"warnings", std::move(warnings)},
-                        {"timing_ms",
-                         {{"load", result.load_ms},
-                          {"cut", result.cut_ms},
-                          {"parameterize", result.parameterize_ms},
-                          {"constrain", result.constrain_ms},
-                          {"total", result.total_ms}}},
-                        {"version", result.version}};
+    Json document{{"regions", std::move(regions)},
+                  {"pairs", std::move(pairs)},
+                  {"constraints", std::move(constraints)}};
+    if (with_geometry) {
+        document["layout"] = {{"width_mm", result.width_mm},
+                              {"height_mm", result.height_mm},
+                              {"placements", std::move(placements)}};
+    }
+    document["warnings"] = std::move(warnings);
+    document["timing_ms"] = {{"load", result.load_ms},
+                             {"cut", result.cut_ms},
+                             {"parameterize", result.parameterize_ms},
+                             {"constrain", result.constrain_ms},
+                             {"total", result.total_ms}};
+    document["version"] = result.version;
+    return document;
+}
+
+std::string text_of(const Json& document) {
     return document.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string to_json(const FlattenResult& result) {
+    return text_of(document_of(result, true));
+}
+
+std::string metrics_json(const FlattenResult& result) {
+    return text_of(document_of(result, false));
 }
 
 }  // namespace lastflat::api

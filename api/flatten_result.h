@@ -118,4 +118,7 @@ struct FlattenResult {
 /// The body of GET /v1/jobs/{id}/result. The same result gives the same bytes.
 [[nodiscard]] std::string to_json(const FlattenResult& result);
 
+/// The same without what grows with the mesh: no coordinates, triangles, outlines, fan or layout.
+[[nodiscard]] std::string metrics_json(const FlattenResult& result);
+
 }  // namespace lastflat::api

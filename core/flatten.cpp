@@ -44,19 +44,6 @@ void warn_of_absent_curves(const Curves& curves, const std::vector<Region>& regi
     }
 }
 
-/// A vertex that was welded to another is named by that one.
-void name_welded_vertices(const SurfaceMesh& surface, FlattenOptions& options) {
-    const auto rename = [&](Index& vertex) {
-        if (surface.is_on_surface(vertex))
-            vertex = surface.welded_to[static_cast<std::size_t>(vertex)];
-    };
-    for (Constraint& constraint : options.constraints) rename(constraint.vertex);
-    for (Zone& zone : options.weights.zones) {
-        rename(zone.vertex);
-        for (Index& vertex : zone.vertices) rename(vertex);
-    }
-}
-
 /// One region of the result, measured and found sound.
 FlatRegion certified(const Region& region, const Chart& chart, const FlattenOptions& options,
                      std::vector<Warning>& warnings) {
@@ -225,6 +212,19 @@ void finish(const std::vector<Region>& regions, std::vector<Group> groups, std::
 }
 
 }  // namespace
+
+/// A vertex that was welded to another is named by that one.
+void name_welded_vertices(const SurfaceMesh& surface, FlattenOptions& options) {
+    const auto rename = [&](Index& vertex) {
+        if (surface.is_on_surface(vertex))
+            vertex = surface.welded_to[static_cast<std::size_t>(vertex)];
+    };
+    for (Constraint& constraint : options.constraints) rename(constraint.vertex);
+    for (Zone& zone : options.weights.zones) {
+        rename(zone.vertex);
+        for (Index& vertex : zone.vertices) rename(vertex);
+    }
+}
 
 FlattenResult flatten(std::string_view model, const FlattenOptions& asked, Progress& progress) {
     FlattenResult result;

@@ -64,6 +64,9 @@ struct FlattenResult {
     bool draw_fan = false;
 };
 
+/// Ids of vertices that were welded away become the ids of those that stand for them.
+void name_welded_vertices(const SurfaceMesh& surface, FlattenOptions& options);
+
 /// Flattens a last.
 ///
 /// In:     the bytes of a model (see `load_model`), the shoe-maker's constraints.

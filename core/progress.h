@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <string_view>
 
 #include "core/error.h"
@@ -27,12 +28,18 @@ enum class Stage { load, weld, cut, parameterize, constrain, measure, done };
 /// Written by one working thread, read by any; `cancel` may be called from any thread.
 class Progress {
 public:
+    /// Told of every `reach`, on the working thread.
+    using Observer = std::function<void(Stage stage, double fraction)>;
+
+    explicit Progress(Observer observer = {}) : observer_(std::move(observer)) {}
+
     /// Says that `stage` has begun and stands at `fraction` in [0, 1] of the whole job.
     /// Throws: Error{cancelled} if the job was cancelled.
     void reach(Stage stage, double fraction) {
         stage_ = stage;
         fraction_ = fraction;
         check();
+        if (observer_) observer_(stage, fraction);
     }
     /// Throws: Error{cancelled} if the job was cancelled. Called in every long loop.
     void check() const {
@@ -44,6 +51,7 @@ public:
     [[nodiscard]] double fraction() const { return fraction_; }
 
 private:
+    const Observer observer_;
     std::atomic<Stage> stage_{Stage::load};
     std::atomic<double> fraction_{0.0};
     std::atomic<bool> cancelled_{false};

@@ -8,8 +8,8 @@
 #include "api/flatten_request.h"
 #include "core/export/write_model.h"
 #include "server/problem_map.h"
-#include "server/run_job.h"
 #include "server/translate.h"
+#include "server/worker/run_job.h"
 
 namespace lastflat::server {
 namespace {
@@ -99,8 +99,7 @@ int flatten_command(const fs::path& model, const std::optional<fs::path>& reques
     JobInput input;
     try {
         const auto wire = api::flatten_request_from_json(*constraints);
-        input = {std::make_shared<const std::string>(std::move(*bytes)), to_options(wire),
-                 wire.tag};
+        input = {std::move(*bytes), to_options(wire)};
     } catch (const api::InvalidRequest& error) {
         return report(problem_of(error));
     } catch (const Error& error) {
@@ -108,12 +107,12 @@ int flatten_command(const fs::path& model, const std::optional<fs::path>& reques
     }
     input.options.threads = std::max(1u, std::thread::hardware_concurrency());
     Progress progress;
-    const JobOutcome outcome = run_job(input, progress);
+    const RunOutcome outcome = run_job(input, progress);
     if (!outcome.output) return report(outcome.error.value());
-    return write_or_report(directory, {{"result.json", *outcome.output->json},
-                                       {"flat.obj", *outcome.output->obj},
-                                       {"flat.glb", *outcome.output->glb},
-                                       {"pattern.svg", *outcome.output->svg}});
+    return write_or_report(directory, {{"result.json", outcome.output->json},
+                                       {"flat.obj", outcome.output->obj},
+                                       {"flat.glb", outcome.output->glb},
+                                       {"pattern.svg", outcome.output->svg}});
 }
 
 int sample_last_command(const SampleLastOptions& options, const fs::path& directory) {

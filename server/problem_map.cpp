@@ -48,4 +48,10 @@ api::Problem problem_of(const api::InvalidRequest& error) {
     return {422, "invalid_request", "", field + ": " + error.what(), error.pointer(), std::nullopt};
 }
 
+api::Problem out_of_memory() {
+    return {413,          "out_of_memory",
+            "",           "the model needs more memory than a job may have; send a coarser one",
+            std::nullopt, std::nullopt};
+}
+
 }  // namespace lastflat::server

@@ -2,18 +2,36 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace lastflat::server {
 
+struct Address {
+    std::string host;
+    int port = 0;
+};
+
 struct Settings {
-    std::string host = "127.0.0.1";
-    int port = 8080;
-    std::size_t workers = 0;        ///< 0: one for each core
-    std::size_t queue = 256;        ///< jobs waiting
-    std::size_t max_body_mb = 256;  ///< of one request
-    std::size_t connections = 64;   ///< served at once
-    int grace_seconds = 20;         ///< for running jobs when the service ends
+    Address listen{"127.0.0.1", 8080};
+    std::optional<Address> admin;  ///< of health, readiness and metrics
+    std::string data = "lastflat-data";
+    std::size_t workers = 0;         ///< 0: one for each core
+    std::size_t queue = 256;         ///< jobs waiting
+    std::size_t queue_per_key = 64;  ///< of one API key
+    std::size_t max_body_mb = 256;   ///< of one request
+    std::size_t connections = 64;    ///< served at once
+    std::size_t streams = 64;        ///< long polls and event streams at once
+    std::size_t rate = 6000;         ///< requests of one key in a minute; 0: any number
+    int job_memory_mb = 4096;        ///< of one job; 0: no limit
+    std::int64_t job_time_ms = 300'000;
+    std::int64_t lease_ms = 60'000;
+    std::int64_t result_ms = 24 * 3600'000LL;   ///< how long a result is kept
+    std::int64_t job_ms = 7 * 24 * 3600'000LL;  ///< how long a finished job is kept
+    std::int64_t grace_ms = 20'000;             ///< for running jobs when the service ends
+    std::vector<std::string> allowed_origins;   ///< web pages that may call (CORS)
 };
 
 }  // namespace lastflat::server

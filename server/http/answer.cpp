@@ -48,9 +48,9 @@ std::string date_now() {
 }
 
 bool frames_the_message(std::string_view name) {
-    constexpr std::array<std::string_view, 8> framing = {
+    constexpr std::array<std::string_view, 7> framing = {
         "content-length", "transfer-encoding", "connection", "keep-alive",
-        "content-type",   "trailer",           "upgrade",    "accept-ranges"};
+        "content-type",   "trailer",           "upgrade"};
     return std::find(framing.begin(), framing.end(), lower_case(name)) != framing.end();
 }
 

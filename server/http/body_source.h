@@ -20,6 +20,12 @@ public:
     /// At most `size` bytes, chunk framing included; 0 at the end of the body and after any fault.
     [[nodiscard]] std::size_t read(char* bytes, std::size_t size);
 
+    /// Whether the body was read to its end.
+    [[nodiscard]] bool is_complete() const { return fault_ == Fault::none && at_end(); }
+    /// What arrived behind the body: the next request.
+    [[nodiscard]] std::string rest() const { return buffer_.substr(used_); }
+    [[nodiscard]] std::uint64_t raw_bytes() const { return raw_bytes_; }
+
     /// Throws: Refusal if the body was not read to its end, saying why.
     void check_complete() const;
 

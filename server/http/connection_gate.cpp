@@ -64,19 +64,19 @@ ConnectionGate::ConnectionGate(const ServerLimits& limits, HeadHandler on_head,
     thread_ = std::thread([this] { watch(); });
 }
 
-void ConnectionGate::admit(Socket socket) {
-    arrive(std::move(socket), State::reading);
+void ConnectionGate::admit(Socket socket, std::string bytes) {
+    arrive({std::move(socket), State::reading, std::move(bytes)});
 }
 
 void ConnectionGate::linger(Socket socket) {
     ::shutdown(socket.fd(), SHUT_WR);
-    arrive(std::move(socket), State::lingering);
+    arrive({std::move(socket), State::lingering, {}});
 }
 
-void ConnectionGate::arrive(Socket socket, State state) {
+void ConnectionGate::arrive(Arrival arrival) {
     {
         const std::lock_guard lock(mutex_);
-        arrivals_.push_back({std::move(socket), state});
+        arrivals_.push_back(std::move(arrival));
     }
     wake();
 }
@@ -165,7 +165,10 @@ void ConnectionGate::add(Arrival arrival) {
     epoll_event event{};
     event.events = EPOLLIN;
     event.data.ptr = &*place;
-    if (::epoll_ctl(epoll_.fd(), EPOLL_CTL_ADD, place->socket.fd(), &event) != 0) drop(*place);
+    place->bytes = std::move(arrival.bytes);
+    if (::epoll_ctl(epoll_.fd(), EPOLL_CTL_ADD, place->socket.fd(), &event) != 0)
+        return drop(*place);
+    if (reading && !place->bytes.empty()) look_for_head(*place, 0);
 }
 
 void ConnectionGate::on_ready(Connection& connection) {
@@ -183,7 +186,10 @@ void ConnectionGate::read_head(Connection& connection) {
     if (got <= 0) return drop(connection);  // gone before it asked for anything
     const std::size_t searched = connection.bytes.size();
     connection.bytes.append(step.data(), static_cast<std::size_t>(got));
+    look_for_head(connection, searched);
+}
 
+void ConnectionGate::look_for_head(Connection& connection, std::size_t searched) {
     const auto head_size = head_length(connection.bytes, searched);
     if (head_size ? *head_size <= limits_.head_bytes
                   : connection.bytes.size() < limits_.head_bytes) {
@@ -246,7 +252,10 @@ void ConnectionGate::drain(Connection& connection) {
 
 void ConnectionGate::drop(Connection& connection) {
     std::list<Connection>& list = connection.state == State::reading ? reading_ : lingering_;
-    list.erase(connection.place);  // closing the socket takes it out of epoll
+    // Closing the socket would not take it out of epoll while a process that is just being started
+    // still holds a copy of it.
+    ::epoll_ctl(epoll_.fd(), EPOLL_CTL_DEL, connection.socket.fd(), nullptr);
+    list.erase(connection.place);
 }
 
 void ConnectionGate::drop_overdue() {

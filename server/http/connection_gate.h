@@ -38,8 +38,9 @@ public:
     ConnectionGate(const ConnectionGate&) = delete;
     ConnectionGate& operator=(const ConnectionGate&) = delete;
 
-    /// Takes an accepted socket. Any thread.
-    void admit(Socket socket);
+    /// Takes a socket that was accepted, or answered and kept alive, with what is already read of
+    /// its next head. Any thread.
+    void admit(Socket socket, std::string bytes = {});
     /// Takes a socket whose answer is written: closing it at once would take the answer away from
     /// a client that is still sending. Any thread.
     void linger(Socket socket);
@@ -61,9 +62,10 @@ private:
     struct Arrival {
         Socket socket;
         State state;
+        std::string bytes;
     };
 
-    void arrive(Socket socket, State state);
+    void arrive(Arrival arrival);
     void wake() const;
     void watch();
     void watch_once();
@@ -71,6 +73,7 @@ private:
     void add(Arrival arrival);
     void on_ready(Connection& connection);
     void read_head(Connection& connection);
+    void look_for_head(Connection& connection, std::size_t searched);
     void hand_on(Connection& connection, std::size_t head_size);
     void refuse(Connection& connection, Refusal refusal);
     void answer(Connection& connection, const std::string& bytes);

@@ -4,12 +4,15 @@
 
 namespace lastflat::http {
 
-ConnectionPool::ConnectionPool(std::size_t threads, std::size_t most_queued, Serve serve)
-    : most_queued_(most_queued), serve_(std::move(serve)) {
-    // A thread that is not yet running counts as idle, or the first requests would be refused.
-    idle_threads_ = threads;
+ConnectionPool::ConnectionPool(std::size_t serving, std::size_t waiting, std::size_t most_queued,
+                               Serve serve)
+    : most_serving_(serving),
+      most_waiting_(waiting),
+      most_queued_(most_queued),
+      serve_(std::move(serve)) {
     try {
-        for (std::size_t i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
+        for (std::size_t i = 0; i < serving + waiting; ++i)
+            threads_.emplace_back([this] { work(); });
     } catch (...) {
         finish();
         throw;
@@ -19,11 +22,29 @@ ConnectionPool::ConnectionPool(std::size_t threads, std::size_t most_queued, Ser
 bool ConnectionPool::offer(VettedConnection& connection) {
     {
         const std::lock_guard lock(mutex_);
-        if (finishing_ || queue_.size() >= most_queued_ + idle_threads_) return false;
+        const std::size_t idle = most_serving_ > serving_ ? most_serving_ - serving_ : 0;
+        if (finishing_ || queue_.size() >= most_queued_ + idle) return false;
         queue_.push_back(std::move(connection));
     }
     changed_.notify_one();
     return true;
+}
+
+bool ConnectionPool::enter() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (waiting_ == most_waiting_) return false;
+        ++waiting_;
+        --serving_;
+    }
+    changed_.notify_one();
+    return true;
+}
+
+void ConnectionPool::leave() {
+    const std::lock_guard lock(mutex_);
+    --waiting_;
+    ++serving_;
 }
 
 void ConnectionPool::finish() {
@@ -39,11 +60,13 @@ void ConnectionPool::finish() {
 void ConnectionPool::work() {
     std::unique_lock lock(mutex_);
     while (true) {
-        changed_.wait(lock, [this] { return finishing_ || !queue_.empty(); });
+        changed_.wait(lock, [this] {
+            return (finishing_ && queue_.empty()) || (!queue_.empty() && serving_ < most_serving_);
+        });
         if (queue_.empty()) return;
         VettedConnection connection = std::move(queue_.front());
         queue_.pop_front();
-        --idle_threads_;
+        ++serving_;
         lock.unlock();
         try {
             serve_(std::move(connection));
@@ -51,7 +74,12 @@ void ConnectionPool::work() {
             // The connection closes itself; the thread goes on.
         }
         lock.lock();
-        ++idle_threads_;
+        --serving_;
+        // One of those that wait for a place may go on; at the end, all must look.
+        if (finishing_)
+            changed_.notify_all();
+        else
+            changed_.notify_one();
     }
 }
 

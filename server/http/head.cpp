@@ -239,6 +239,16 @@ void find_route(Head& head, const RouteTable& routes, std::string_view raw_path)
         .with_header("Allow", allowed);
 }
 
+/// Whether a comma-separated list has the word, in any case.
+bool has_item(std::string_view list, std::string_view word) {
+    while (!list.empty()) {
+        const std::size_t end = std::min(list.find(','), list.size());
+        if (lower_case(trimmed(list.substr(0, end))) == word) return true;
+        list.remove_prefix(std::min(end + 1, list.size()));
+    }
+    return false;
+}
+
 Head read_head(const RequestLine& line, const std::vector<std::string_view>& lines,
                const RouteTable& routes, const ServerLimits& limits) {
     check_target(line.target);
@@ -260,6 +270,7 @@ Head read_head(const RequestLine& line, const std::vector<std::string_view>& lin
         parse_query(line.target.substr(std::min(raw_path.size() + 1, line.target.size())));
     find_route(head, routes, raw_path);
     check_body(head);
+    head.keeps_alive = !line.is_http_1_0 && !has_item(head.request.header("connection"), "close");
     head.awaits_continue =
         head.has_body() && head.request.headers.contains("expect") && !line.is_http_1_0;
     return head;

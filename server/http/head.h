@@ -20,6 +20,7 @@ struct Head {
     const Route* route = nullptr;  ///< of the table the head was vetted against
     bool chunked = false;
     std::uint64_t content_length = 0;
+    bool keeps_alive = false;      ///< the client may send another request afterwards
     bool awaits_continue = false;  ///< the client sends the body after a "100 Continue"
 
     [[nodiscard]] bool has_body() const { return chunked || content_length > 0; }

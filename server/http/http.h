@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,15 +24,43 @@ struct BodyPart {
     std::string bytes;
 };
 
+/// Where a handler may wait for something without taking a connection thread from others.
+class WaitingRoom {
+public:
+    virtual ~WaitingRoom() = default;
+    /// False: it is full; do not wait.
+    [[nodiscard]] virtual bool enter() = 0;
+    virtual void leave() = 0;
+};
+
+/// A place in the waiting room, if there was one.
+class Seat {
+public:
+    explicit Seat(WaitingRoom* room) : room_(room != nullptr && room->enter() ? room : nullptr) {}
+    ~Seat() {
+        if (room_ != nullptr) room_->leave();
+    }
+    Seat(const Seat&) = delete;
+    Seat& operator=(const Seat&) = delete;
+    [[nodiscard]] bool is_taken() const { return room_ != nullptr; }
+
+private:
+    WaitingRoom* const room_;
+};
+
 struct Request {
+    std::string id;  ///< the client's X-Request-Id if it is fit for that, else one of ours
     std::string method;
     std::string path;                          ///< without the query
     std::map<std::string, std::string> query;  ///< percent-decoded; UTF-8, no control characters
     std::map<std::string, std::string>
         headers;                        ///< names in lower case; repeated ones joined by ", "
-    std::vector<std::string> captures;  ///< what the route's "{id}"s matched
+    std::vector<std::string> captures;  ///< what the route's groups matched
     std::string remote_address;         ///< of the peer; no header can change it
     std::vector<BodyPart> body;         ///< empty for a request without one
+    std::string principal;              ///< who asks, as `Admit` found out
+    std::vector<std::pair<std::string, std::string>> answer_headers;  ///< whatever the answer is
+    WaitingRoom* waiting_room = nullptr;
 
     /// The header's value, empty if it is absent. `name` in lower case.
     [[nodiscard]] std::string_view header(const std::string& name) const {
@@ -40,16 +69,22 @@ struct Request {
     }
 };
 
+/// Sends bytes of a stream; false once the client is gone.
+using Write = std::function<bool(std::string_view bytes)>;
+
 struct Response {
     int status = 200;
     std::string media_type;                   ///< of the body
     std::shared_ptr<const std::string> body;  ///< shared, so that a large result is not copied
     std::vector<std::pair<std::string, std::string>> headers;  ///< framing ones are ours: dropped
+    /// Instead of a body: called again and again until it returns false, on the same thread.
+    std::function<bool(const Write&)> stream;
 };
 
 using Handler = std::function<Response(const Request&)>;
 
-/// `pattern` matches the whole path; "{id}" stands for 26 characters of 0-9 and A-Z.
+/// `pattern` matches the whole path; "{id}" stands for a ULID (26 characters of 0-9 and A-Z) or a
+/// UUID, "{digest}" for 64 hexadecimal digits.
 struct Route {
     std::string method;  ///< GET answers HEAD too
     std::string pattern;
@@ -66,9 +101,11 @@ struct ServerLimits {
     std::size_t head_bytes = 16u << 10;
     std::size_t head_lines = 100;
     std::size_t connections = 64;            ///< served at once, each on a thread
+    std::size_t waiting_requests = 64;       ///< in the waiting room
     std::size_t queued_requests = 256;       ///< complete heads waiting for a thread; more get 503
     std::size_t waiting_connections = 4096;  ///< head not complete; also bounded by RLIMIT_NOFILE
-    std::chrono::milliseconds head_time{10'000};  ///< from accept to the end of the head
+    /// From accept, or from the last answer, to the end of the head.
+    std::chrono::milliseconds head_time{10'000};
     std::chrono::milliseconds body_time{60'000};  ///< from a thread taking the request to its end
     std::size_t body_bytes_per_second = 8192;     ///< on average, once `slow_body_grace` is over
     std::chrono::milliseconds slow_body_grace{5'000};
@@ -85,9 +122,30 @@ using ProblemMaker =
 /// Called from several threads at once.
 using FailureLog = std::function<void(const Request& request, std::string_view what)>;
 
-/// An HTTP/1.1 server, one request a connection.
+/// Decides about a request before its body is read; an answer ends it. May set `principal` and
+/// `answer_headers`. Called on connection threads; must not throw.
+using Admit = std::function<std::optional<Response>(Request&)>;
+
+struct AnswerReport {
+    const Request& request;    ///< without its body; empty if the head was no good
+    std::string_view pattern;  ///< of the route; empty: none
+    int status = 0;
+    double seconds = 0.0;  ///< from the thread taking the request to the answer's last byte
+    std::size_t bytes_received = 0, bytes_sent = 0;  ///< of bodies
+};
+/// Told of every answer. Called from several threads at once; must not throw.
+using AnswerLog = std::function<void(const AnswerReport&)>;
+
+struct ServerHooks {
+    ProblemMaker problem;
+    FailureLog failed{};
+    Admit admit{};
+    AnswerLog answered{};
+};
+
+/// An HTTP/1.1 server with keep-alive.
 ///
-/// In:     the routes and limits; what makes problem documents; who is told of exceptions.
+/// In:     the routes and limits; what makes problem documents; who is told of what.
 /// Out:    every well-formed request is answered by its handler or by a problem; every handler runs
 ///         on a connection thread of its own; an exception of a handler becomes a 500.
 ///         HEAD is answered by the GET handler, OPTIONS by the list of methods. `Range` is ignored.
@@ -96,8 +154,7 @@ using FailureLog = std::function<void(const Request& request, std::string_view w
 ///         listening socket stays broken.
 class Server {
 public:
-    Server(std::vector<Route> routes, ServerLimits limits, ProblemMaker problem,
-           FailureLog failure_log = {});
+    Server(std::vector<Route> routes, ServerLimits limits, ServerHooks hooks);
     ~Server();
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;

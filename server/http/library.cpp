@@ -46,9 +46,15 @@ public:
     [[nodiscard]] const BodySource& body() const { return body_; }
     void start_answer() { write_deadline_ = Clock::now() + limits_.write_time; }
     [[nodiscard]] bool write_failed() const { return write_failed_; }
+    [[nodiscard]] std::size_t sent() const { return sent_; }
 
     bool is_readable() const override { return true; }
-    bool is_writable() const override { return !write_failed_; }
+    /// A client that has closed its side is gone: what it sent is then an end, not bytes.
+    bool is_writable() const override {
+        char byte = 0;
+        const bool closed = ::recv(fd_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
+        return !write_failed_ && !closed && Clock::now() < stop_time_.get();
+    }
     ssize_t read(char* bytes, size_t size) override {
         const std::size_t from_head = head_.copy(bytes, size, head_used_);
         head_used_ += from_head;
@@ -56,6 +62,7 @@ public:
     }
     ssize_t write(const char* bytes, size_t size) override {
         std::size_t done = 0;
+        sent_ += size;
         while (done < size && !write_failed_) {
             const ssize_t sent = ::send(fd_, bytes + done, size - done, MSG_NOSIGNAL);
             if (sent >= 0) {
@@ -80,6 +87,7 @@ private:
     const ServerLimits& limits_;
     const StopTime& stop_time_;
     Clock::time_point write_deadline_;
+    std::size_t sent_ = 0;
     bool write_failed_ = false;
 };
 
@@ -89,6 +97,8 @@ public:
     void enqueue(std::function<void()> task) override { task(); }
     void shutdown() override {}
 };
+
+void complete_headers(httplib::Response& response);
 
 /// The library's server, opened where its own threads and sockets would take over.
 class OpenedServer : public httplib::Server {
@@ -104,12 +114,12 @@ public:
             ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
             ::fcntl(fd, F_SETFD, FD_CLOEXEC);
         });
-        // Added by the library, wrong here: ranges are not served, and these have no body.
+        // Added by the library, wrong here: these have no body.
         set_post_routing_handler([](const httplib::Request&, httplib::Response& response) {
-            response.headers.erase("Accept-Ranges");
             if (response.status == 204 || response.status == 304) {
                 response.headers.erase("Content-Length");
             }
+            complete_headers(response);
         });
     }
 
@@ -152,8 +162,21 @@ struct Exchange {
     const HttpLibrary::Answer& answer;
     RequestStream& stream;
     BodyShare& share;
+    bool stays;  ///< the connection, for another request
+    int status = 0;
+    bool ranges = false;  ///< the answer says itself what ranges it has
 };
 thread_local Exchange* current_exchange = nullptr;
+
+/// Once the answer is known: a body that was not read to its end would be taken for a request.
+void complete_headers(httplib::Response& response) {
+    Exchange& exchange = *current_exchange;
+    exchange.stays = exchange.stays && exchange.stream.body().is_complete();
+    if (!exchange.ranges) response.headers.erase("Accept-Ranges");
+    response.headers.erase("Connection");
+    response.headers.erase("Keep-Alive");
+    if (!exchange.stays) response.set_header("Connection", "close");
+}
 
 std::string read_body(Exchange& exchange, const ServerLimits& limits,
                       const httplib::ContentReader& reader) {
@@ -175,13 +198,36 @@ std::string read_body(Exchange& exchange, const ServerLimits& limits,
     return body;
 }
 
+/// One call of the provider for each of the stream.
+void give_stream(const Response& answer, httplib::Response& out) {
+    out.set_chunked_content_provider(
+        outgoing_media_type(answer),
+        [stream = answer.stream](size_t, httplib::DataSink& sink) noexcept {
+            try {
+                const auto write = [&](std::string_view bytes) {
+                    current_exchange->stream.start_answer();
+                    return sink.is_writable() && sink.write(bytes.data(), bytes.size());
+                };
+                if (stream(write)) return sink.is_writable();
+                sink.done();
+                return true;
+            } catch (...) {
+                return false;  // the stream breaks off, which its client sees
+            }
+        });
+}
+
 /// Moves an answer into the library's. A body goes through a provider: set_content would copy it,
 /// and might compress it for minutes.
 void give(const Response& answer, httplib::Response& out) {
     const bool has_status = answer.status >= 200 && answer.status <= 599;
     out.status = has_status ? answer.status : 500;
-    for (const auto& [name, value] : outgoing_headers(answer)) out.set_header(name, value);
+    for (const auto& [name, value] : outgoing_headers(answer)) {
+        if (name == "Accept-Ranges") current_exchange->ranges = true;
+        out.set_header(name, value);
+    }
     const bool bodiless = out.status == 204 || out.status == 304;
+    if (answer.stream && !bodiless) return give_stream(answer, out);
     if (!answer.body || answer.body->empty() || bodiless) return;
     out.set_content_provider(
         answer.body->size(), outgoing_media_type(answer),
@@ -196,6 +242,7 @@ void answer_through(const HttpLibrary::ReadBody& body, httplib::Response& out) {
     const Response response = current_exchange->answer(body);
     current_exchange->stream.start_answer();
     give(response, out);
+    current_exchange->status = out.status;
 }
 
 /// Bound by name would mean either family; the loopback that every client tries is this one.
@@ -209,6 +256,8 @@ std::string numeric_host(const std::string& host) {
 
 class HttpLibrary::Impl {
 public:
+    using Outcome = HttpLibrary::Outcome;
+
     Impl(const ServerLimits& limits, Accept accept)
         : limits_(limits), server_([this, accept = std::move(accept)](Socket socket) {
               ++accepted_;
@@ -227,7 +276,7 @@ public:
     int bind(const std::string& host, int port);
     bool accept_until_stopped();
     void stop();
-    bool exchange(VettedConnection& connection, const Answer& answer);
+    Outcome exchange(VettedConnection& connection, const Answer& answer);
 
     [[nodiscard]] bool is_stopped() const { return stopped_; }
 
@@ -297,15 +346,23 @@ void HttpLibrary::Impl::stop() {
     if (listener_ >= 0) ::shutdown(listener_, SHUT_RDWR);
 }
 
-bool HttpLibrary::Impl::exchange(VettedConnection& connection, const Answer& answer) {
+HttpLibrary::Outcome HttpLibrary::Impl::exchange(VettedConnection& connection,
+                                                 const Answer& answer) {
     RequestStream stream(connection, limits_, stop_time_);
     BodyShare share(body_bytes_, limits_.all_bodies_bytes);
-    Exchange exchange{answer, stream, share};
+    Exchange exchange{answer, stream, share, connection.head.keeps_alive && !stopped_};
     current_exchange = &exchange;
     bool closed = false;
-    server_.process_request(stream, true, closed, nullptr);
+    const bool done = server_.process_request(stream, false, closed, nullptr);
     current_exchange = nullptr;
-    return !stream.write_failed();
+    Outcome outcome;
+    outcome.answered = !stream.write_failed();
+    outcome.reusable = done && outcome.answered && exchange.stays;
+    if (outcome.reusable) outcome.rest = stream.body().rest();
+    outcome.bytes_received = stream.body().raw_bytes();
+    outcome.bytes_sent = stream.sent();
+    outcome.status = exchange.status;
+    return outcome;
 }
 
 HttpLibrary::HttpLibrary(const ServerLimits& limits, Accept accept)
@@ -329,7 +386,7 @@ bool HttpLibrary::is_stopped() const {
     return impl_->is_stopped();
 }
 
-bool HttpLibrary::exchange(VettedConnection& connection, const Answer& answer) {
+HttpLibrary::Outcome HttpLibrary::exchange(VettedConnection& connection, const Answer& answer) {
     return impl_->exchange(connection, answer);
 }
 

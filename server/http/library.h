@@ -35,8 +35,15 @@ public:
     void stop();
     [[nodiscard]] bool is_stopped() const;
 
-    /// Reads the body, calls `answer`, writes what it returns. False: the client is gone.
-    [[nodiscard]] bool exchange(VettedConnection& connection, const Answer& answer);
+    struct Outcome {
+        bool answered = false;  ///< false: the client is gone
+        bool reusable = false;  ///< the connection is good for another request
+        std::string rest;       ///< of which this is already read
+        std::size_t bytes_received = 0, bytes_sent = 0;
+        int status = 0;
+    };
+    /// Reads the body, calls `answer`, writes what it returns.
+    [[nodiscard]] Outcome exchange(VettedConnection& connection, const Answer& answer);
 
 private:
     class Impl;

@@ -8,13 +8,33 @@
 namespace lastflat::http {
 namespace {
 
-constexpr std::string_view id_group = "{id}";
-constexpr std::size_t id_length = 26;
+bool all_of(std::string_view text, std::string_view allowed) {
+    return text.find_first_not_of(allowed) == std::string_view::npos;
+}
 
+/// A ULID, or a UUID as RFC 9562 writes it.
 bool is_id(std::string_view text) {
-    return text.size() == id_length && std::all_of(text.begin(), text.end(), [](char c) {
-               return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z');
-           });
+    constexpr std::string_view hexadecimal = "0123456789abcdef";
+    if (text.size() == 26) return all_of(text, "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ");
+    if (text.size() != 36) return false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool dash = i == 8 || i == 13 || i == 18 || i == 23;
+        if (dash ? text[i] != '-' : hexadecimal.find(text[i]) == std::string_view::npos)
+            return false;
+    }
+    return true;
+}
+
+/// What of the path's beginning the group takes; empty: it does not fit.
+std::string_view match_of(std::string_view group, std::string_view path) {
+    if (group == "{id}") {
+        for (const std::size_t length : {36u, 26u}) {
+            if (is_id(path.substr(0, length))) return path.substr(0, length);
+        }
+    }
+    const std::string_view digest = path.substr(0, 64);
+    const bool fits = digest.size() == 64 && all_of(digest, "0123456789abcdef");
+    return group == "{digest}" && fits ? digest : std::string_view();
 }
 
 /// What the pattern's groups matched; nothing if the path is another one.
@@ -22,17 +42,17 @@ std::optional<std::vector<std::string>> captures_of(std::string_view pattern,
                                                     std::string_view path) {
     std::vector<std::string> captures;
     while (!pattern.empty()) {
-        const std::size_t group = pattern.find(id_group);
-        const std::string_view literal = pattern.substr(0, group);
-        if (path.substr(0, literal.size()) != literal) return std::nullopt;
-        path.remove_prefix(literal.size());
-        pattern.remove_prefix(literal.size());
-        if (group == std::string_view::npos) break;
-        const std::string_view id = path.substr(0, id_length);
-        if (!is_id(id)) return std::nullopt;
-        captures.emplace_back(id);
-        path.remove_prefix(id_length);
-        pattern.remove_prefix(id_group.size());
+        const std::size_t group = std::min(pattern.find('{'), pattern.size());
+        if (path.substr(0, group) != pattern.substr(0, group)) return std::nullopt;
+        path.remove_prefix(group);
+        pattern.remove_prefix(group);
+        if (pattern.empty()) break;
+        const std::string_view name = pattern.substr(0, pattern.find('}') + 1);
+        const std::string_view value = match_of(name, path);
+        if (value.empty()) return std::nullopt;
+        captures.emplace_back(value);
+        path.remove_prefix(value.size());
+        pattern.remove_prefix(name.size());
     }
     if (!path.empty()) return std::nullopt;
     return captures;

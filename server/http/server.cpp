@@ -1,4 +1,5 @@
 // Puts the layer together: the library accepts, the gate waits for heads, the pools serve.
+#include <atomic>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -38,12 +39,10 @@ std::vector<BodyPart> parts_of(const Head& head, std::string body, std::size_t m
 
 class Server::Impl {
 public:
-    Impl(std::vector<Route> routes, ServerLimits limits, ProblemMaker problem,
-         FailureLog failure_log)
+    Impl(std::vector<Route> routes, ServerLimits limits, ServerHooks hooks)
         : routes_(std::move(routes)),
           limits_(limits),
-          problem_(std::move(problem)),
-          failure_log_(std::move(failure_log)),
+          hooks_(std::move(hooks)),
           library_(limits, [this](Socket socket) { gate_->admit(std::move(socket)); }) {}
 
     int bind(const std::string& host, int port) { return library_.bind(host, port); }
@@ -54,14 +53,18 @@ private:
     [[nodiscard]] std::optional<std::string> on_head(Socket& socket, std::string& bytes,
                                                      std::size_t head_size);
     [[nodiscard]] std::string refusal_bytes(const Refusal& refusal) const;
+    [[nodiscard]] std::string request_id(const Request& request);
     void serve(VettedConnection connection);
     [[nodiscard]] Response handle(Head& head, const HttpLibrary::ReadBody& read_body) const;
     [[nodiscard]] Response failed(const Request& request, std::string_view what) const;
 
     const RouteTable routes_;
     const ServerLimits limits_;
-    const ProblemMaker problem_;
-    const FailureLog failure_log_;
+    const ServerHooks hooks_;
+    std::atomic<std::uint64_t> requests_{0};
+    /// Tells the requests of one start from those of another.
+    const std::string start_ = std::to_string(std::chrono::system_clock::now().time_since_epoch() /
+                                              std::chrono::microseconds(1));
     HttpLibrary library_;
     std::unique_ptr<ConnectionGate> gate_;
     std::unique_ptr<ConnectionPool> pool_;
@@ -77,10 +80,10 @@ void Server::Impl::run() {
         },
         [this](const Refusal& refusal) { return refusal_bytes(refusal); });
     const auto serve_one = [this](VettedConnection connection) { serve(std::move(connection)); };
-    pool_ =
-        std::make_unique<ConnectionPool>(limits_.connections, limits_.queued_requests, serve_one);
+    pool_ = std::make_unique<ConnectionPool>(limits_.connections, limits_.waiting_requests,
+                                             limits_.queued_requests, serve_one);
     express_pool_ =
-        std::make_unique<ConnectionPool>(express_threads, most_queued_express, serve_one);
+        std::make_unique<ConnectionPool>(express_threads, 0, most_queued_express, serve_one);
 
     const bool was_stopped = library_.accept_until_stopped();
 
@@ -97,7 +100,7 @@ std::optional<std::string> Server::Impl::on_head(Socket& socket, std::string& by
     try {
         VettedConnection connection;
         connection.head = vet_head(std::string_view(bytes).substr(0, head_size), routes_, limits_);
-        if (connection.head.has_body()) connection.early_body = bytes.substr(head_size);
+        connection.early_body = bytes.substr(head_size);
         const bool without_body = connection.head.request.method == "HEAD";
         ConnectionPool& pool = connection.head.route->express ? *express_pool_ : *pool_;
         connection.socket = std::move(socket);
@@ -112,23 +115,57 @@ std::optional<std::string> Server::Impl::on_head(Socket& socket, std::string& by
 }
 
 std::string Server::Impl::refusal_bytes(const Refusal& refusal) const {
-    return answer_bytes(answer_to(refusal, problem_), refusal.is_without_body());
+    if (hooks_.answered) {
+        const Request unknown;
+        hooks_.answered({unknown, "", refusal.status()});
+    }
+    return answer_bytes(answer_to(refusal, hooks_.problem), refusal.is_without_body());
+}
+
+/// The client's own, if a log can hold it; else ours, which no two requests share.
+std::string Server::Impl::request_id(const Request& request) {
+    constexpr std::size_t longest = 128;
+    const std::string_view given = request.header("x-request-id");
+    if (is_token(given) && given.size() <= longest) return std::string(given);
+    return start_ + "-" + std::to_string(++requests_);
 }
 
 void Server::Impl::serve(VettedConnection connection) {
-    connection.head.request.remote_address = peer_address(connection.socket.fd());
-    const bool answered = library_.exchange(
-        connection,
-        [&](const HttpLibrary::ReadBody& read_body) { return handle(connection.head, read_body); });
-    if (answered) gate_->linger(std::move(connection.socket));
+    const auto begun = Clock::now();
+    Head& head = connection.head;
+    Request& request = head.request;
+    request.remote_address = peer_address(connection.socket.fd());
+    request.id = request_id(request);
+    request.answer_headers.emplace_back("X-Request-Id", request.id);
+    request.waiting_room = head.route->express ? express_pool_.get() : pool_.get();
+    // Asked before the library is: it would ask the client for a body that nobody wants.
+    auto refused = hooks_.admit ? hooks_.admit(request) : std::nullopt;
+    if (refused) head.awaits_continue = false;
+    auto outcome = library_.exchange(connection, [&](const HttpLibrary::ReadBody& read_body) {
+        Response response = refused ? std::move(*refused) : handle(head, read_body);
+        response.headers.insert(response.headers.end(), request.answer_headers.begin(),
+                                request.answer_headers.end());
+        return response;
+    });
+    if (hooks_.answered) {
+        const std::chrono::duration<double> taken = Clock::now() - begun;
+        hooks_.answered({request, head.route->pattern, outcome.status, taken.count(),
+                         outcome.bytes_received, outcome.bytes_sent});
+    }
+    if (outcome.reusable)
+        gate_->admit(std::move(connection.socket), std::move(outcome.rest));
+    else if (outcome.answered)
+        gate_->linger(std::move(connection.socket));
 }
 
 Response Server::Impl::handle(Head& head, const HttpLibrary::ReadBody& read_body) const {
     try {
         if (read_body) head.request.body = parts_of(head, read_body(), limits_.body_parts);
-        return head.route->handler(head.request);
+        Response response = head.route->handler(head.request);
+        head.request.body.clear();
+        return response;
     } catch (const Refusal& refusal) {
-        return answer_to(refusal, problem_);
+        return answer_to(refusal, hooks_.problem);
     } catch (const std::exception& error) {
         return failed(head.request, error.what());
     } catch (...) {
@@ -138,19 +175,17 @@ Response Server::Impl::handle(Head& head, const HttpLibrary::ReadBody& read_body
 
 Response Server::Impl::failed(const Request& request, std::string_view what) const {
     try {
-        if (failure_log_) failure_log_(request, what);
+        if (hooks_.failed) hooks_.failed(request, what);
     } catch (...) {
         // A log that fails must not take the answer with it.
     }
     return answer_to(Refusal(500, "internal_error",
                              "The server failed to answer. The fault is not in the request."),
-                     problem_);
+                     hooks_.problem);
 }
 
-Server::Server(std::vector<Route> routes, ServerLimits limits, ProblemMaker problem,
-               FailureLog failure_log)
-    : impl_(std::make_unique<Impl>(std::move(routes), limits, std::move(problem),
-                                   std::move(failure_log))) {}
+Server::Server(std::vector<Route> routes, ServerLimits limits, ServerHooks hooks)
+    : impl_(std::make_unique<Impl>(std::move(routes), limits, std::move(hooks))) {}
 
 Server::~Server() = default;
 

@@ -23,6 +23,9 @@ namespace lastflat::http {
 /// Nothing if a '%' is not followed by two hexadecimal digits.
 [[nodiscard]] std::optional<std::string> percent_decoded(std::string_view text, bool plus_is_space);
 
+/// Everything but letters, digits and -._~ encoded.
+[[nodiscard]] std::string percent_encoded(std::string_view text);
+
 /// "type/subtype" in lower case of a Content-Type value; empty if there is none.
 [[nodiscard]] std::string media_type_of(std::string_view content_type);
 

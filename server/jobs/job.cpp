@@ -1,8 +1,8 @@
 #include "server/jobs/job.h"
 
-#include <array>
 #include <chrono>
-#include <random>
+
+#include "server/crypto.h"
 
 namespace lastflat::server {
 
@@ -13,11 +13,13 @@ std::int64_t now_ms() {
 
 std::string new_job_id() {
     constexpr char alphabet[] = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";
+    const std::string random = random_bytes(16);
     std::string id(26, '0');
     auto time = static_cast<std::uint64_t>(now_ms());
     for (std::size_t i = 10; i-- > 0; time /= 32) id[i] = alphabet[time % 32];
-    std::random_device random;  // the system's generator, not a seeded one
-    for (std::size_t i = 10; i < id.size(); ++i) id[i] = alphabet[random() % 32];
+    for (std::size_t i = 0; i < 16; ++i) {
+        id[10 + i] = alphabet[static_cast<unsigned char>(random[i]) % 32];
+    }
     return id;
 }
 

@@ -2,48 +2,57 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "api/problem.h"
-#include "core/flatten.h"
 #include "server/jobs/job_state.h"
 
 namespace lastflat::server {
 
-using Bytes = std::shared_ptr<const std::string>;
-
-/// What a job asks for.
-struct JobInput {
-    Bytes model;
-    FlattenOptions options;
+/// What a job asks for. The model is a blob; the request is the constraint JSON as it was sent.
+struct NewJob {
+    std::string id;
+    std::string owner;  ///< id of the API key; empty: the service is open
     std::string tag;
+    std::string batch;  ///< id of the batch it came in; empty: alone
+    std::string model, request;
+    std::uint64_t model_bytes = 0;
+    std::string fingerprint;                   ///< of everything asked: the same means a repetition
+    std::string idempotency_key;               ///< empty: none
+    std::optional<std::int64_t> cancel_at_ms;  ///< if it has not ended by then
 };
 
-/// A result in every format that it can be asked for.
-struct JobOutput {
-    Bytes json, svg, glb, obj;
-    [[nodiscard]] std::size_t size() const {
-        return json->size() + svg->size() + glb->size() + obj->size();
-    }
+/// One format of a result: a part of the result's blob.
+struct ResultPart {
+    std::string format;  ///< "json", "svg", "glb", "obj", "metrics"
+    bool gzip = false;
+    std::uint64_t offset = 0, size = 0;
+    std::string digest;  ///< SHA-256 of the part
 };
 
 struct JobRecord {
-    std::string id;
+    std::string id, owner, tag, batch;
     JobState state = JobState::queued;
-    std::string tag;
+    std::string reason;  ///< why it was canceled: "client", "deadline"
+    std::string fingerprint, model;
+    std::uint64_t model_bytes = 0;
     std::int64_t created_ms = 0;
-    std::optional<std::int64_t> started_ms, finished_ms;
+    std::optional<std::int64_t> started_ms, finished_ms, cancel_at_ms;
+    std::optional<std::int64_t> result_expires_ms, expires_ms;  ///< once it has ended
+    int attempt = 0;
+    std::int64_t revision = 0;                  ///< grows with every change
     std::optional<std::size_t> queue_position;  ///< while queued; 1: next
-    std::optional<api::Problem> error;          ///< of a failed job
-    std::shared_ptr<const JobOutput> output;    ///< of a succeeded job; null once it has expired
+    std::string error;                          ///< of a failed job: its problem, JSON
+    std::string result;                         ///< the blob; empty: none, or expired
+    std::vector<ResultPart> parts;
 };
 
-/// How a run ended. Exactly one of the two, or neither: it was cancelled.
+/// How a run ended. A result, or a problem (JSON), or neither: it was canceled.
 struct JobOutcome {
-    std::shared_ptr<const JobOutput> output;
-    std::optional<api::Problem> error;
+    std::string result;
+    std::vector<ResultPart> parts;
+    std::string error;
 };
 
 /// 26 characters that sort by time and cannot be guessed (a ULID).

@@ -1,15 +1,19 @@
 // The life of a job.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 namespace lastflat::server {
 
 /// queued ──► running ──► succeeded
-///   │          ├───────► failed
+///   │  ◄───────┤  │
+///   │          ├──┴────► failed
 ///   │          ▼
 ///   │       canceling ─► canceled
 ///   └──────────────────► canceled
+///
+/// A running job goes back to queued when its worker is lost or the service ends.
 enum class JobState { queued, running, canceling, succeeded, failed, canceled };
 
 [[nodiscard]] constexpr std::string_view name(JobState state) {
@@ -24,6 +28,14 @@ enum class JobState { queued, running, canceling, succeeded, failed, canceled };
     return "unknown";
 }
 
+[[nodiscard]] constexpr std::optional<JobState> job_state_of(std::string_view word) {
+    for (const JobState state : {JobState::queued, JobState::running, JobState::canceling,
+                                 JobState::succeeded, JobState::failed, JobState::canceled}) {
+        if (name(state) == word) return state;
+    }
+    return std::nullopt;
+}
+
 [[nodiscard]] constexpr bool is_final(JobState state) {
     return state == JobState::succeeded || state == JobState::failed || state == JobState::canceled;
 }
@@ -33,7 +45,8 @@ enum class JobState { queued, running, canceling, succeeded, failed, canceled };
     switch (from) {
         case JobState::queued: return to == JobState::running || to == JobState::canceled;
         case JobState::running:
-            return to == JobState::succeeded || to == JobState::failed || to == JobState::canceling;
+            return to == JobState::succeeded || to == JobState::failed ||
+                   to == JobState::canceling || to == JobState::queued;
         case JobState::canceling: return to == JobState::canceled;
         case JobState::succeeded:
         case JobState::failed:

@@ -10,6 +10,7 @@ python3-jsonschema it says so and ends with 77 (skipped).
 """
 
 import base64
+import hashlib
 import json
 import math
 import os
@@ -30,6 +31,11 @@ except ImportError:
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 NO_JOB = "0" * 26
+NO_ASSET = "0" * 64
+
+
+def path_of(path, id):
+    return path.replace("{id}", id).replace("{digest}", id if len(id) == 64 else NO_ASSET)
 TYPES = {"json": "application/json", "svg": "image/svg+xml", "glb": "model/gltf-binary", "obj": "model/obj"}
 
 
@@ -91,7 +97,7 @@ class Contract:
         if not content:
             if body:
                 self.complain(where, f"a body that is not declared: {body[:200]!r}")
-            return None
+            return headers
         media_type = headers.get("content-type", "").split(";")[0]
         if media_type not in content:
             return self.complain(where, f"the content type {media_type!r} is not declared")
@@ -139,8 +145,21 @@ class Contract:
                 self.check_value(f"example of {name}", {"$ref": f"#/components/schemas/{name}"}, example)
 
 
+def unchunked(body):
+    """The content of a chunked body; a body that breaks off raises."""
+    content = b""
+    while True:
+        size, _, body = body.partition(b"\r\n")
+        if int(size, 16) == 0:
+            return content
+        content, body = content + body[:int(size, 16)], body[int(size, 16) + 2:]
+
+
 class Server:
     def __init__(self, program, *flags):
+        self.folder = tempfile.TemporaryDirectory()
+        if "--data" not in flags:
+            flags = ("--data", self.folder.name, *flags)
         self.process = subprocess.Popen([program, "serve", "--listen", "127.0.0.1:0", *flags], stdout=subprocess.PIPE,
                                         stderr=subprocess.DEVNULL, text=True)
         assert select.select([self.process.stdout], [], [], 10)[0], "the server does not start"
@@ -151,6 +170,7 @@ class Server:
     def stop(self):
         self.process.kill()
         self.process.wait()
+        self.folder.cleanup()
 
     def open(self, data):
         connection = socket.create_connection(("127.0.0.1", self.port), timeout=60)
@@ -170,17 +190,19 @@ class Server:
         for line in lines[1:]:
             name, _, value = line.partition(":")
             headers[name.lower()] = value.strip()
+        if body and headers.get("transfer-encoding") == "chunked":
+            body = unchunked(body)
         return int(lines[0].split()[1]), headers, body
 
 
 class Walk:
     """Requests to one server, each answer held against the contract."""
 
-    def __init__(self, server, contract):
-        self.server, self.contract = server, contract
+    def __init__(self, server, contract, headers=()):
+        self.server, self.contract, self.headers = server, contract, list(headers)
 
     def ask(self, method, path, *, id=NO_JOB, query="", headers=(), body=None, version="HTTP/1.1", host="x"):
-        lines = [f"{method} {path.replace('{id}', id)}{query} {version}", f"Host: {host}", *headers]
+        lines = [f"{method} {path_of(path, id)}{query} {version}", f"Host: {host}", "Connection: close", *self.headers, *headers]
         if body is not None:
             lines.append(f"Content-Length: {len(body)}")
         data = "\r\n".join(lines).encode() + b"\r\n\r\n" + (body or b"")
@@ -189,7 +211,7 @@ class Walk:
 
     def expect(self, status, code, method, path, **request):
         got, value = self.ask(method, path, **request)
-        got_code = value.get("code") if isinstance(value, dict) and got >= 400 else None
+        got_code = value.get("code") if isinstance(value, dict) and got >= 400 and method != "HEAD" else None
         if (got, got_code) != (status, code):
             self.contract.complain(f"{method} {path}", f"expected {status} {code}, got {got} {got_code}: {str(value)[:200]}")
         return value
@@ -242,10 +264,10 @@ def walk_http(walk):
         walk.ask(method, path, headers=[f"X-{i}: 1" for i in range(120)])
         walk.ask(method, path, query="?" + "a" * 9000)
         walk.ask(method, path, version="HTTP/3.0")
-        if (method, path) != ("POST", "/v1/jobs"):
+        if method not in ("POST", "PUT") or path.endswith("/cancel"):
             walk.ask(method, path, headers=["Content-Length: 2", "Content-Type: text/plain"])
         if method != "HEAD":
-            waiting.append((method, path, walk.server.open(f"{method} {path.replace('{id}', NO_JOB)} HTTP/1.1\r\n".encode())))
+            waiting.append((method, path, walk.server.open(f"{method} {path_of(path, NO_JOB)} HTTP/1.1\r\n".encode())))
     for path in walk.contract.document["paths"]:
         for method in ("GET", "POST", "PUT", "PATCH", "DELETE"):
             if method.lower() not in walk.contract.document["paths"][path]:
@@ -322,8 +344,9 @@ def walk_waiting(walk, finished):
     waiting = walk.post(slow)
     walk.expect(503, "queue_full", "POST", "/v1/jobs", body=slow)
     walk.expect(200, None, "GET", "/v1/jobs/{id}", id=waiting)
-    walk.expect(409, "not_finished", "GET", "/v1/jobs/{id}/result", id=waiting)
-    walk.expect(409, None, "HEAD", "/v1/jobs/{id}/result", id=waiting)
+    for method, path, operation in walk.contract.operations():
+        if "409" in operation["responses"] and method in ("GET", "HEAD"):
+            walk.expect(409, "not_finished" if method == "GET" else None, method, path, id=waiting)
     walk.expect(200, None, "POST", "/v1/jobs/{id}/cancel", id=waiting)
     walk.expect(409, "canceled", "GET", "/v1/jobs/{id}/result", id=waiting)
     walk.expect(202, None, "POST", "/v1/jobs/{id}/cancel", id=running)
@@ -331,6 +354,155 @@ def walk_waiting(walk, finished):
     for id in (finished, waiting, running):
         walk.expect(204, None, "DELETE", "/v1/jobs/{id}", id=id)
     walk.expect(404, "job_not_found", "DELETE", "/v1/jobs/{id}", id=running)
+
+
+def walk_more(walk, example):
+    """Assets, validation, batches, lists, repetitions, conditions, ranges, events."""
+    model, request = base64.b64decode(example["model"]["data"]), example["request"]
+    digest = hashlib.sha256(model).hexdigest()
+    asset = walk.expect(201, None, "POST", "/v1/assets", body=model, headers=["Content-Digest: sha-256=:" + base64.b64encode(
+        hashlib.sha256(model).digest()).decode() + ":"])
+    assert asset["id"] == digest and asset["bytes"] == len(model), asset
+    walk.expect(200, None, "POST", "/v1/assets", **form((b"model", model)))
+    walk.expect(400, "digest_differs", "POST", "/v1/assets", body=model, headers=["Content-Digest: sha-256=:" + "A" * 43 + "=:"])
+    walk.expect(422, "model_missing", "POST", "/v1/assets", body=b"")
+    for method in ("GET", "HEAD"):
+        walk.expect(200, None, method, "/v1/assets/{digest}", id=digest)
+        walk.expect(404, "asset_not_found" if method == "GET" else None, method, "/v1/assets/{digest}")
+    by_asset = {"model": {"asset_id": digest}, "request": request}
+    json_type = "Content-Type: application/json"
+    report = walk.expect(200, None, "POST", "/v1/validate", body=json.dumps(by_asset).encode(), headers=[json_type])
+    assert report["flattens"] and report["surface"]["border_loops_mm"], report
+    closed = walk.expect(200, None, "POST", "/v1/validate", body=b"v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n")
+    assert not closed["flattens"] and closed["problem"]["code"] == "region_not_disk", closed
+    walk.expect(422, "unreadable_model", "POST", "/v1/validate", body=b"hello")
+
+    post_asset = dict(body=json.dumps(by_asset).encode())
+    key = ['Idempotency-Key: "order-1"', json_type, "Cancel-After: 5m"]
+    first = walk.expect(202, None, "POST", "/v1/jobs", headers=key, **post_asset)
+    again = walk.expect(202, None, "POST", "/v1/jobs", headers=key, **post_asset)
+    assert first["id"] == again["id"] and "cancel_at" in first, (first, again)
+    other = json.dumps({**by_asset, "request": {}}).encode()
+    walk.expect(422, "key_reused", "POST", "/v1/jobs", headers=key, body=other)
+    own = "0f8fad5b-d9cb-469f-a165-70867728950e"
+    walk.expect(202, None, "PUT", "/v1/jobs/{id}", id=own, headers=[json_type], **post_asset)
+    done = walk.expect(200, None, "PUT", "/v1/jobs/{id}", id=own, headers=[json_type, "Prefer: wait=30"], **post_asset)
+    assert done["state"] == "succeeded" and done["result"]["regions"], done
+    walk.expect(409, "id_taken", "PUT", "/v1/jobs/{id}", id=own, headers=[json_type], body=other)
+    done = walk.expect(200, None, "POST", "/v1/jobs", headers=[json_type, "Prefer: wait=30"], **post_asset)
+    assert done["result"]["regions"], done
+    walk.expect(422, "asset_not_found", "POST", "/v1/jobs", query="?asset_id=" + NO_ASSET, body=b"")
+    walk.expect(400, "model_repeated", "POST", "/v1/jobs", query="?asset_id=" + digest, body=model)
+    walk.expect(400, "header_invalid", "POST", "/v1/jobs", headers=["Cancel-After: soon"], body=model)
+
+    batch = walk.expect(202, None, "POST", "/v1/jobs:batch", headers=[json_type],
+                        body=json.dumps({"jobs": [by_asset, {"model": {"asset_id": NO_ASSET}}]}).encode())
+    assert (batch["taken"], batch["refused"]) == (1, 1) and batch["items"][1]["problem"]["code"] == "asset_not_found", batch
+    walk.expect(415, "media_type_unsupported", "POST", "/v1/jobs:batch", body=b"{}")
+    walk.expect(422, "invalid_request", "POST", "/v1/jobs:batch", headers=[json_type], body=b"{}")
+    walk.wait_for(batch["items"][0]["job"]["id"], "succeeded")
+    for method in ("GET", "HEAD"):
+        walk.expect(200, None, method, "/v1/batches/{id}", id=batch["id"])
+    assert walk.expect(200, None, "GET", "/v1/batches/{id}", id=batch["id"])["finished"]
+    walk.expect(404, "batch_not_found", "GET", "/v1/batches/{id}")
+
+    seen, cursor = [], ""
+    while cursor is not None:
+        part = walk.expect(200, None, "GET", "/v1/jobs", query="?limit=3&state=succeeded" + cursor)
+        seen += [job["id"] for job in part["items"]]
+        cursor = "&cursor=" + part["next_cursor"] if "next_cursor" in part else None
+    assert own in seen and len(seen) == len(set(seen)) > 3, seen
+    walk.expect(200, None, "HEAD", "/v1/jobs")
+    for query in ("?limit=0", "?state=lost", "?created_after=today"):
+        walk.expect(400, "parameter_invalid", "GET", "/v1/jobs", query=query)
+    walk.expect(400, "parameter_unknown", "GET", "/v1/jobs", query="?stat=queued")
+    walk.expect(400, "cursor_invalid", "GET", "/v1/jobs", query="?cursor=AAAAAAAAAAAAAAAAAAAA")
+    walk_conditions(walk, own)
+    walk.expect(204, None, "DELETE", "/v1/assets/{digest}", id=digest)
+    walk.expect(404, "asset_not_found", "DELETE", "/v1/assets/{digest}", id=digest)
+
+
+def walk_conditions(walk, id):
+    """304, 206 and 416 wherever they are declared, and the events."""
+    for method, path, operation in walk.contract.operations():
+        if "304" not in operation["responses"]:
+            continue
+        headers = walk.expect(200, None, "HEAD", path, id=id)
+        walk.expect(200, None, method, path, id=id)
+        walk.expect(304, None, method, path, id=id, headers=["If-None-Match: " + headers["etag"]])
+        if "206" in operation["responses"]:
+            answer = walk.server.read(walk.server.open(
+                f"{method} {path_of(path, id)} HTTP/1.1\r\nHost: x\r\nConnection: close\r\nRange: bytes=1-10\r\n\r\n".encode()))
+            status, headers, body = answer
+            walk.contract.seen.add((method, path, status))
+            if status != 206 or len(body) != (10 if method == "GET" else 0) or not headers["content-range"].startswith("bytes 1-10/"):
+                walk.contract.complain(f"{method} {path}", f"no range: {answer}")
+            walk.expect(416, "range_outside" if method == "GET" else None, method, path, id=id, headers=["Range: bytes=999999999-"])
+    events = walk.expect(200, None, "GET", "/v1/jobs/{id}/events", id=id).decode()
+    assert events.count("event: state") == 3 and events.count("event: done") == 1, events
+    last = [line[4:] for line in events.splitlines() if line.startswith("id: ")][-1]
+    walk.expect(200, None, "HEAD", "/v1/jobs/{id}/events", id=id)
+    resumed = walk.expect(200, None, "GET", "/v1/jobs/{id}/events", id=id, headers=["Last-Event-ID: 1"]).decode()
+    assert resumed.count("event: state") == 2, resumed
+    for method in ("GET", "HEAD"):
+        walk.expect(204, None, method, "/v1/jobs/{id}/events", id=id, headers=["Last-Event-ID: " + last])
+        walk.expect(406, "not_acceptable" if method == "GET" else None, method, "/v1/jobs/{id}/events", id=id, headers=["Accept: application/json"])
+
+
+def walk_keys(program, contract, example):
+    """A service with keys: 401, 429, and what one key sees of another."""
+    with tempfile.TemporaryDirectory() as folder:
+        keys = [subprocess.run([program, "keys", "add", name, "--data", folder], check=True, capture_output=True,
+                               text=True).stdout.strip() for name in ("one", "two", "three")]
+        server = Server(program, "--rate", "150", "--queue-per-key", "2", "--workers", "1", "--data", folder)
+        try:
+            nobody = Walk(server, contract)
+            one, two, three = (Walk(server, contract, ["Authorization: Bearer " + key]) for key in keys)
+            for method, path, operation in contract.operations():
+                if "401" in operation["responses"]:
+                    nobody.expect(401, "key_missing" if method != "HEAD" else None, method, path)
+            Walk(server, contract, ["Authorization: Bearer " + keys[0] + "0"]).expect(401, "key_unknown", "GET", "/v1/jobs")
+            id = one.post(base64.b64decode(example["model"]["data"]), example["request"])
+            one.wait_for(id, "succeeded")
+            two.expect(404, "job_not_found", "GET", "/v1/jobs/{id}", id=id)
+            two.expect(404, "job_not_found", "DELETE", "/v1/jobs/{id}", id=id)
+            assert two.expect(200, None, "GET", "/v1/jobs")["items"] == []
+            slow = bumpy_disk(200)
+            one.wait_for(one.post(slow), "running")
+            for _ in range(2):
+                one.post(slow)
+            one.expect(429, "key_queue_full", "POST", "/v1/jobs", body=slow)
+            two.post(slow)
+            for _ in range(160):
+                three.ask("GET", "/v1/jobs/{id}")
+            for method, path, operation in contract.operations():
+                if "429" in operation["responses"]:
+                    three.expect(429, "rate_exceeded" if method != "HEAD" else None, method, path)
+            subprocess.run([program, "keys", "revoke", keys[1].split("_")[1], "--data", folder], check=True)
+            two.expect(401, "key_unknown", "GET", "/v1/jobs")
+        finally:
+            server.stop()
+
+
+def walk_expiry(program, contract, example):
+    """A service that keeps results for a second and jobs for two."""
+    server = Server(program, "--keep-results", "1s", "--keep-jobs", "3s", "--streams", "0")
+    try:
+        walk = Walk(server, contract)
+        id = walk.post(base64.b64decode(example["model"]["data"]), example["request"])
+        for method in ("GET", "HEAD"):
+            walk.expect(503, "streams_full" if method == "GET" else None, method, "/v1/jobs/{id}/events", id=id)
+        end = time.monotonic() + 10
+        while (answer := walk.ask("GET", "/v1/jobs/{id}/result", id=id))[0] != 410 and time.monotonic() < end:
+            time.sleep(0.1)
+        assert answer[1]["code"] == "result_expired", answer
+        while walk.ask("GET", "/v1/jobs/{id}", id=id)[0] != 410 and time.monotonic() < end:
+            time.sleep(0.1)
+        for method, path, operation in contract.operations():
+            if "410" in operation["responses"]:
+                walk.expect(410, "job_expired" if method != "HEAD" else None, method, path, id=id)
+    finally:
+        server.stop()
 
 
 def walk_sample(walk, program):
@@ -357,6 +529,7 @@ def main():
         waiting = walk_http(walk)
         example = contract.document["components"]["schemas"]["JsonSubmission"]["examples"][0]
         finished = walk_submissions(walk, example)
+        walk_more(walk, example)
         walk_sample(walk, program)
         walk_waiting(walk, finished)
         for method, path, connection in waiting:
@@ -366,6 +539,8 @@ def main():
             contract.complain("GET /openapi.json", "the server was built from another contract")
     finally:
         server.stop()
+    walk_keys(program, contract, example)
+    walk_expiry(program, contract, example)
 
     exercised = {(m, p) for m, p, _ in contract.seen}
     for method, path, _ in contract.operations():

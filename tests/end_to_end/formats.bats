@@ -15,7 +15,7 @@ teardown() { stop_servers; }
 assert_given() {
     ask "${@:2}"
     assert_equal "$status ${*:2:2}: $(header Content-Type)" "200 ${*:2:2}: $1"
-    assert_equal "$(header Vary)" Accept
+    assert_equal "$(header Vary)" "Accept, Accept-Encoding"
     assert_equal "$(header Content-Length)" "$(stat -c %s "$body")"
 }
 

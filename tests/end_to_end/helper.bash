@@ -28,10 +28,12 @@ wait_until() {
 
 milliseconds() { echo $(( ${EPOCHREALTIME/[.,]/} / 1000 )); }
 
-# start_server FLAGS...: on a free port; sets $url, $LASTFLAT_URL and $server (its process).
+# start_server FLAGS...: on a free port; with a data folder of its own, or $DATA; sets $url,
+# $LASTFLAT_URL, $data and $server (its process).
 start_server() {
     local log=$BATS_TEST_TMPDIR/server.$RANDOM
-    "$LASTFLAT" serve --listen 127.0.0.1:0 "$@" > "$log.out" 2> "$log.err" 3>&- &
+    data=${DATA:-$log.data}
+    "$LASTFLAT" serve --listen 127.0.0.1:0 --data "$data" "$@" > "$log.out" 2> "$log.err" 3>&- &
     server=$!
     servers+=("$server")
     wait_until 10 grep -q '^listening on http://' "$log.out" || { cat "$log.err" >&2; return 1; }

@@ -143,8 +143,8 @@ fails_with() {
         ask -X OPTIONS "$url$path"
         assert_equal "$status $(header Allow)" "204 $allowed"
     done <<TABLE
-GET /v1/jobs POST, OPTIONS
-PUT /v1/jobs/$id GET, HEAD, DELETE, OPTIONS
+DELETE /v1/jobs POST, GET, HEAD, OPTIONS
+PATCH /v1/jobs/$id PUT, GET, HEAD, DELETE, OPTIONS
 DELETE /v1/jobs/$id/result GET, HEAD, OPTIONS
 GET /v1/jobs/$id/cancel POST, OPTIONS
 DELETE /healthz GET, HEAD, OPTIONS

@@ -63,13 +63,7 @@ private:
 class RunningServer {
 public:
     explicit RunningServer(const ServerLimits& limits = {})
-        : server_(routes(), limits, test_problem,
-                  [this](const Request&, std::string_view what) {
-                      const std::lock_guard lock(mutex_);
-                      failures_ += std::string(what) + ";";
-                  }),
-          port_(server_.bind("127.0.0.1", 0)),
-          thread_([this] {
+        : server_(routes(), limits, hooks()), port_(server_.bind("127.0.0.1", 0)), thread_([this] {
               try {
                   server_.run();
               } catch (const std::exception& error) {
@@ -105,6 +99,21 @@ public:
     static constexpr std::size_t large_size = 3'000'000;
 
 private:
+    ServerHooks hooks() {
+        ServerHooks hooks;
+        hooks.problem = test_problem;
+        hooks.failed = [this](const Request&, std::string_view what) {
+            const std::lock_guard lock(mutex_);
+            failures_ += std::string(what) + ";";
+        };
+        hooks.admit = [](Request& request) -> std::optional<Response> {
+            request.answer_headers.emplace_back("X-Admitted", "yes");
+            if (request.header("authorization") != "no") return std::nullopt;
+            return test_problem(401, "key_missing", "");
+        };
+        return hooks;
+    }
+
     /// Says what reached the handler, so that a test can see it.
     static Response echo(const Request& request) {
         std::string text = request.method + " " + request.path + " " + request.remote_address;
@@ -143,9 +152,25 @@ private:
             {"GET", "/throw",
              [](const Request&) -> Response { throw std::runtime_error("the secret"); }},
             {"GET", "/throw-int", [](const Request&) -> Response { throw 7; }},
-            {"GET", "/wait", [this](const Request&) {
+            {"GET", "/wait",
+             [this](const Request&) {
                  turnstile.pass();
                  return text_response("waited");
+             }},
+            {"GET", "/seat",
+             [this](const Request& request) {
+                 const Seat seat(request.waiting_room);
+                 if (!seat.is_taken()) return text_response("no seat");
+                 turnstile.pass();
+                 return text_response("sat");
+             }},
+            {"GET", "/stream", [](const Request&) {
+                 Response response = text_response("");
+                 response.stream = [left = 3](const Write& write) mutable {
+                     write("event " + std::to_string(left));
+                     return --left > 0;
+                 };
+                 return response;
              }}};
     }
 
@@ -158,11 +183,16 @@ private:
 };
 
 inline std::string get(const std::string& path, const std::string& headers = "") {
+    return "GET " + path + " HTTP/1.1\r\nHost: a\r\nConnection: close\r\n" + headers + "\r\n";
+}
+
+/// A request after which the connection stays.
+inline std::string get_and_stay(const std::string& path, const std::string& headers = "") {
     return "GET " + path + " HTTP/1.1\r\nHost: a\r\n" + headers + "\r\n";
 }
 
 inline std::string post(const std::string& headers, const std::string& body) {
-    return "POST /echo HTTP/1.1\r\nHost: a\r\n" + headers + "\r\n" + body;
+    return "POST /echo HTTP/1.1\r\nHost: a\r\nConnection: close\r\n" + headers + "\r\n" + body;
 }
 
 }  // namespace lastflat::http

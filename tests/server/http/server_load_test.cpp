@@ -44,6 +44,22 @@ std::string healthz(int port) {
 }  // namespace
 
 TEST_SUITE("server/http/server under load") {
+    TEST_CASE("those who wait in the waiting room take no connection from others") {
+        ServerLimits limits;
+        limits.connections = 1;
+        limits.waiting_requests = 2;
+        RunningServer server(limits);
+        RawClient first(server.port()), second(server.port());
+        first.send(get("/seat"));
+        second.send(get("/seat"));
+        REQUIRE(server.turnstile.wait_for(2));
+        CHECK(body_of(ask(server.port(), get("/seat"))) == "no seat");
+        CHECK(status_of(ask(server.port(), get("/echo"))) == 200);
+        server.turnstile.open();
+        CHECK(body_of(first.receive()) == "sat");
+        CHECK(body_of(second.receive()) == "sat");
+    }
+
     TEST_CASE("health is answered while everything else is taken") {
         ServerLimits limits;
         limits.connections = 3;
@@ -198,7 +214,7 @@ TEST_SUITE("server/http/server under load") {
     }
 
     TEST_CASE("the kernel queues hundreds of connections that are not yet accepted") {
-        Server server({}, {}, test_problem);
+        Server server({}, {}, {test_problem});
         const int port = server.bind("127.0.0.1", 0);
         tcp_info info{};
         socklen_t size = sizeof info;
@@ -209,7 +225,7 @@ TEST_SUITE("server/http/server under load") {
     TEST_CASE("a server stopped before it runs does not run") {
         for (const bool bound_first : {true, false}) {
             Server server({{"GET", "/", [](const Request&) { return Response{}; }}}, {},
-                          test_problem);
+                          {test_problem});
             if (!bound_first) server.stop();
             server.bind("127.0.0.1", 0);
             server.stop();
@@ -220,10 +236,10 @@ TEST_SUITE("server/http/server under load") {
     TEST_CASE("a port has one server") {
         RunningServer first;
         for (const char* host : {"127.0.0.1", "localhost"}) {
-            Server second({}, {}, test_problem);
+            Server second({}, {}, {test_problem});
             CHECK_THROWS_AS(second.bind(host, first.port()), std::runtime_error);
         }
-        Server nowhere({}, {}, test_problem);
+        Server nowhere({}, {}, {test_problem});
         CHECK_THROWS_AS(nowhere.bind("203.0.113.1", 0), std::runtime_error);
         CHECK_THROWS(nowhere.run());
     }
@@ -231,7 +247,7 @@ TEST_SUITE("server/http/server under load") {
     TEST_CASE("every spelling of an address can be bound") {
         for (const char* host : {"127.0.0.1", "0.0.0.0", "localhost", "::1", "[::1]"}) {
             CAPTURE(host);
-            Server server({}, {}, test_problem);
+            Server server({}, {}, {test_problem});
             CHECK(server.bind(host, 0) > 0);
         }
     }

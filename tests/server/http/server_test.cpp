@@ -115,10 +115,13 @@ TEST_SUITE("server/http/server") {
         }
     }
 
-    TEST_CASE("a second request on the connection is not answered") {
+    TEST_CASE("what follows a request that asks to close is not answered") {
         RunningServer server;
         CHECK(count_of(ask(server.port(), get("/echo") + get("/echo") + get("/echo")),
-                       "HTTP/1.1 ") == 1);
+                       "HTTP/1.1 ") == 1);  // each asked to close after it
+        CHECK(count_of(ask(server.port(),
+                           get_and_stay("/echo") + get_and_stay("/healthz") + get("/echo")),
+                       "HTTP/1.1 200") == 3);
         CHECK(count_of(ask(server.port(), post("Content-Length: 2\r\n", "ab" + get("/echo"))),
                        "HTTP/1.1 ") == 1);
     }
@@ -147,16 +150,64 @@ TEST_SUITE("server/http/server") {
         CHECK(client.send("x"));
     }
 
+    TEST_CASE("a connection stays for further requests, unless a body was left unread") {
+        RunningServer server;
+        RawClient client(server.port());
+        for (int i = 0; i < 3; ++i) {
+            client.send(get_and_stay("/echo"));
+            CHECK(client.receive_until("GET /echo 127.0.0.1").find("Connection: close") ==
+                  std::string::npos);
+            client.send("POST /echo HTTP/1.1\r\nHost: a\r\nContent-Length: 5\r\n\r\nhello");
+            CHECK(client.receive_until("hello").find("200 OK") != std::string::npos);
+        }
+        client.send(
+            "POST /echo HTTP/1.1\r\nHost: a\r\nAuthorization: no\r\nContent-Length: 99\r\n\r\n" +
+            get("/echo"));
+        const std::string refused = client.receive();
+        CHECK(status_of(refused) == 401);
+        CHECK(refused.find("Connection: close") != std::string::npos);
+        CHECK(refused.find("X-Admitted: yes") != std::string::npos);
+        CHECK(count_of(refused, "HTTP/1.1 ") == 1);
+    }
+
+    TEST_CASE("who is not admitted is not asked for the body") {
+        RunningServer server;
+        const std::string answer =
+            ask(server.port(),
+                post("Authorization: no\r\nExpect: 100-continue\r\nContent-Length: 5\r\n", ""));
+        CHECK(status_of(answer) == 401);
+    }
+
+    TEST_CASE("a stream arrives in chunks, and the connection stays") {
+        RunningServer server;
+        const std::string answer = ask(server.port(), get_and_stay("/stream") + get("/echo"));
+        CHECK(answer.find("Transfer-Encoding: chunked") != std::string::npos);
+        CHECK(answer.find("7\r\nevent 3\r\n7\r\nevent 2\r\n7\r\nevent 1\r\n0\r\n") !=
+              std::string::npos);
+        CHECK(count_of(answer, "HTTP/1.1 200") == 2);
+    }
+
+    TEST_CASE("requests carry an id, the client's own if it is clean") {
+        RunningServer server;
+        CHECK(ask(server.port(), get("/echo", "X-Request-Id: order-7\r\n"))
+                  .find("X-Request-Id: order-7\r\n") != std::string::npos);
+        const std::string other = ask(server.port(), get("/echo", "X-Request-Id: a b\r\n"));
+        CHECK(other.find("X-Request-Id: ") != std::string::npos);
+        CHECK(other.find("X-Request-Id: a b") == std::string::npos);
+    }
+
     TEST_CASE("HEAD is GET without the body, also when refused") {
         RunningServer server;
-        const std::string large = ask(server.port(), "HEAD /large HTTP/1.1\r\nHost: a\r\n\r\n");
+        const std::string large =
+            ask(server.port(), "HEAD /large HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
         CHECK(status_of(large) == 200);
         CHECK(large.find("Content-Length: 3000000\r\n") != std::string::npos);
         CHECK(large.find("Accept-Ranges") == std::string::npos);
         CHECK(body_of(large) == "");
         for (const char* path : {"/nowhere", "/throw"}) {
             const std::string refused =
-                ask(server.port(), std::string("HEAD ") + path + " HTTP/1.1\r\nHost: a\r\n\r\n");
+                ask(server.port(), std::string("HEAD ") + path +
+                                       " HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
             CHECK(status_of(refused) >= 400);
             CHECK(body_of(refused) == "");
         }

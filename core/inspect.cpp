@@ -1,0 +1,109 @@
+#include "core/inspect.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "core/constrain/check_constraints.h"
+
+namespace lastflat {
+namespace {
+
+std::vector<std::pair<std::string, std::size_t>> count_groups(const RawMesh& raw) {
+    std::map<std::string, std::size_t> counts;
+    for (const std::uint32_t label : raw.triangle_labels) {
+        for (const std::string& group : raw.label_sets[label]) ++counts[group];
+    }
+    return {counts.begin(), counts.end()};
+}
+
+std::size_t count_components(const TriMesh& mesh) {
+    std::vector<bool> seen(mesh.n_faces(), false);
+    std::vector<OpenMesh::FaceHandle> stack;
+    std::size_t components = 0;
+    const auto visit = [&](OpenMesh::FaceHandle face) {
+        const auto index = static_cast<std::size_t>(face.idx());
+        if (seen[index]) return;
+        seen[index] = true;
+        stack.push_back(face);
+    };
+    for (const auto seed : mesh.faces()) {
+        if (seen[static_cast<std::size_t>(seed.idx())]) continue;
+        ++components;
+        visit(seed);
+        while (!stack.empty()) {
+            const auto face = stack.back();
+            stack.pop_back();
+            for (const auto neighbour : mesh.ff_range(face)) visit(neighbour);
+        }
+    }
+    return components;
+}
+
+std::vector<double> border_loops(const TriMesh& mesh) {
+    std::vector<bool> seen(mesh.n_halfedges(), false);
+    std::vector<double> lengths;
+    for (const auto start : mesh.halfedges()) {
+        if (!mesh.is_boundary(start) || seen[static_cast<std::size_t>(start.idx())]) continue;
+        double length = 0.0;
+        OpenMesh::HalfedgeHandle side = start;
+        do {
+            seen[static_cast<std::size_t>(side.idx())] = true;
+            length += mesh.calc_edge_length(side);
+            side = mesh.next_halfedge_handle(side);
+        } while (side != start);
+        lengths.push_back(length);
+    }
+    std::sort(lengths.rbegin(), lengths.rend());
+    return lengths;
+}
+
+void measure_surface(const TriMesh& mesh, Inspection& found) {
+    found.triangles = mesh.n_faces();
+    found.components = count_components(mesh);
+    found.border_loops_mm = border_loops(mesh);
+    Eigen::AlignedBox3d box;
+    for (const auto vertex : mesh.vertices()) {
+        if (mesh.is_isolated(vertex)) continue;
+        ++found.vertices;
+        const auto& p = mesh.point(vertex);
+        box.extend(Vec3(p[0], p[1], p[2]));
+    }
+    for (const auto face : mesh.faces()) found.area_mm2 += mesh.calc_face_area(face);
+    if (!box.isEmpty()) found.size_mm = box.sizes();
+}
+
+InspectedRegion inspected(const Region& region) {
+    const auto lengths = border_lengths(region);
+    return {region.name, region.positions.size(), region.triangles.size(), surface_area(region),
+            std::accumulate(lengths.begin(), lengths.end(), 0.0)};
+}
+
+}  // namespace
+
+Inspection inspect(std::string_view model, const FlattenOptions& asked) {
+    FlattenOptions options = asked;
+    Inspection found;
+    const RawMesh raw = load_model(model, options.limits);
+    found.file_vertices = raw.positions.size();
+    found.file_triangles = raw.triangles.size();
+    found.groups = count_groups(raw);
+    found.unit_mm = options.weld.unit_mm.value_or(raw.default_unit_mm);
+    const SurfaceMesh surface = weld(raw, options.weld);
+    found.warnings = surface.warnings;
+    measure_surface(surface.mesh, found);
+    name_welded_vertices(surface, options);
+    try {
+        const Curves curves = locate_curves(surface, options.curves);
+        const auto regions = cut_into_regions(surface, curves, options.cut);
+        check_constraints(options.constraints, curves, regions);
+        check_zones(options.weights.zones, curves, regions);
+        for (const Region& region : regions) found.regions.push_back(inspected(region));
+    } catch (const Error& error) {
+        found.fault = error;
+    }
+    return found;
+}
+
+}  // namespace lastflat

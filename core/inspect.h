@@ -1,0 +1,38 @@
+// What a model is, without flattening it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/flatten.h"
+
+namespace lastflat {
+
+struct InspectedRegion {
+    std::string name;
+    std::size_t vertices = 0, triangles = 0;
+    double area_mm2 = 0.0, border_mm = 0.0;
+};
+
+struct Inspection {
+    std::size_t file_vertices = 0, file_triangles = 0;
+    std::vector<std::pair<std::string, std::size_t>> groups;  ///< names, triangles; of the file
+    double unit_mm = 1.0;                                     ///< one unit of the model
+    // Of the surface: the faces that take part, welded.
+    std::size_t vertices = 0, triangles = 0, components = 0;
+    double area_mm2 = 0.0;
+    Vec3 size_mm = Vec3::Zero();          ///< of the box around it
+    std::vector<double> border_loops_mm;  ///< their lengths, longest first; none: it is closed
+    std::vector<InspectedRegion> regions;
+    std::optional<Error> fault;  ///< why it cannot be cut into regions as asked
+    std::vector<Warning> warnings;
+};
+
+/// Runs the stages before the flattening.
+///
+/// Throws: Error, of `load_model` and `weld`: there is no surface to speak of.
+[[nodiscard]] Inspection inspect(std::string_view model, const FlattenOptions& options);
+
+}  // namespace lastflat

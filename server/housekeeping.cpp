@@ -1,0 +1,48 @@
+#include "server/housekeeping.h"
+
+#include "server/observe/log.h"
+
+namespace lastflat::server {
+namespace {
+
+constexpr std::chrono::seconds interval{1};
+
+}  // namespace
+
+void recover(JobStore& jobs, const BlobStore& blobs) {
+    const Swept swept = jobs.sweep(true, worker_lost_problem());
+    drop_unneeded(blobs, jobs, blobs.all());
+    log_event("recovered", {{"jobs", swept.changed.size()}});
+}
+
+Housekeeping::Housekeeping(Service& service)
+    : service_(service), thread_([this] {
+          std::unique_lock lock(mutex_);
+          while (!ended_.wait_for(lock, interval, [this] { return ending_; })) sweep();
+      }) {}
+
+Housekeeping::~Housekeeping() {
+    {
+        const std::scoped_lock lock(mutex_);
+        ending_ = true;
+    }
+    ended_.notify_all();
+    thread_.join();
+}
+
+void Housekeeping::sweep() {
+    try {
+        const Swept swept = service_.jobs.sweep(false, worker_lost_problem());
+        for (const std::string& id : swept.changed) {
+            service_.workers.cancel(id);
+            service_.watch.changed(id);
+        }
+        drop_unneeded(service_.blobs, service_.jobs, swept.blobs);
+        if (!swept.changed.empty()) service_.workers.wake();
+    } catch (const StoreError& error) {
+        service_.metrics.count("lastflat_store_failures_total");
+        log_event("store_failed", {{"why", error.what()}});
+    }
+}
+
+}  // namespace lastflat::server

@@ -1,0 +1,36 @@
+// What has to be done now and then, whatever clients ask.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "server/routes/service.h"
+
+namespace lastflat::server {
+
+/// Before anything runs: jobs that were running when the process ended go back to the queue (this
+/// process holds the data, so nobody works on them), and blobs that no row knows are removed.
+void recover(JobStore& jobs, const BlobStore& blobs);
+
+/// A thread that ends lost leases and overdue jobs, and forgets what is past its time, once a
+/// second.
+class Housekeeping {
+public:
+    /// `service` must outlive it.
+    explicit Housekeeping(Service& service);
+    ~Housekeeping();
+    Housekeeping(const Housekeeping&) = delete;
+    Housekeeping& operator=(const Housekeeping&) = delete;
+
+private:
+    void sweep();
+
+    Service& service_;
+    std::mutex mutex_;
+    std::condition_variable ended_;
+    bool ending_ = false;
+    std::thread thread_;
+};
+
+}  // namespace lastflat::server

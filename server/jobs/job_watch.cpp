@@ -1,0 +1,80 @@
+#include "server/jobs/job_watch.h"
+
+namespace lastflat::server {
+
+void JobWatch::touch(Entry& entry) {
+    ++entry.version;
+    if (entry.subscriptions > 0) changed_.notify_all();
+}
+
+void JobWatch::drop_if_idle(std::map<std::string, Entry>::iterator entry) {
+    if (entry->second.subscriptions == 0 && !entry->second.progress) entries_.erase(entry);
+}
+
+void JobWatch::changed(const std::string& id) {
+    const std::scoped_lock lock(mutex_);
+    if (const auto entry = entries_.find(id); entry != entries_.end()) touch(entry->second);
+}
+
+void JobWatch::reach(const std::string& id, const std::string& stage, double fraction) {
+    const std::scoped_lock lock(mutex_);
+    Entry& entry = entries_[id];
+    const std::int64_t number = entry.progress ? entry.progress->number + 1 : 1;
+    entry.progress = LiveProgress{stage, fraction, number};
+    touch(entry);
+}
+
+void JobWatch::ended(const std::string& id) {
+    const std::scoped_lock lock(mutex_);
+    const auto entry = entries_.find(id);
+    if (entry == entries_.end()) return;
+    entry->second.progress.reset();
+    touch(entry->second);
+    drop_if_idle(entry);
+}
+
+std::optional<LiveProgress> JobWatch::progress(const std::string& id) const {
+    const std::scoped_lock lock(mutex_);
+    const auto entry = entries_.find(id);
+    return entry == entries_.end() ? std::nullopt : entry->second.progress;
+}
+
+void JobWatch::close(std::chrono::milliseconds grace) {
+    std::unique_lock lock(mutex_);
+    closed_ = true;
+    changed_.notify_all();
+    changed_.wait_for(lock, grace, [&] { return subscriptions_ == 0; });
+}
+
+bool JobWatch::is_closed() const {
+    const std::scoped_lock lock(mutex_);
+    return closed_;
+}
+
+JobWatch::Subscription::Subscription(JobWatch& watch, std::string id)
+    : watch_(watch), id_(std::move(id)) {
+    const std::scoped_lock lock(watch_.mutex_);
+    Entry& entry = watch_.entries_[id_];
+    ++entry.subscriptions;
+    ++watch_.subscriptions_;
+    seen_ = entry.version;
+}
+
+JobWatch::Subscription::~Subscription() {
+    const std::scoped_lock lock(watch_.mutex_);
+    const auto entry = watch_.entries_.find(id_);
+    --entry->second.subscriptions;
+    watch_.drop_if_idle(entry);
+    if (--watch_.subscriptions_ == 0) watch_.changed_.notify_all();
+}
+
+bool JobWatch::Subscription::wait_until(Clock::time_point deadline) {
+    std::unique_lock lock(watch_.mutex_);
+    const Entry& entry = watch_.entries_.at(id_);
+    const auto is_news = [&] { return watch_.closed_ || entry.version != seen_; };
+    const bool news = watch_.changed_.wait_until(lock, deadline, is_news) && !watch_.closed_;
+    seen_ = entry.version;
+    return news;
+}
+
+}  // namespace lastflat::server

@@ -1,0 +1,122 @@
+#include "server/routes/access.h"
+
+#include <algorithm>
+
+#include "server/jobs/job.h"
+#include "server/routes/answers.h"
+#include "server/stores/files.h"
+
+namespace lastflat::server {
+namespace {
+
+constexpr std::int64_t window_ms = 60'000;
+constexpr std::string_view scheme = "Bearer ";
+
+http::Response problem(int status, const char* code, const std::string& detail) {
+    return problem_response({status, code, "", detail, std::nullopt, std::nullopt});
+}
+
+bool is_this_machine(const std::string& address) {
+    return address.rfind("127.", 0) == 0 || address == "::1" ||
+           address.rfind("::ffff:127.", 0) == 0;
+}
+
+}  // namespace
+
+std::optional<http::Response> Access::admit(http::Request& request) {
+    allow_origin(request);
+    if (request.method == "OPTIONS" || request.path.rfind("/v1/", 0) != 0) return std::nullopt;
+    try {
+        if (auto refused = check_key(request)) return refused;
+    } catch (const StoreError&) {
+        return problem(503, "store_unavailable", "the keys cannot be read now; try again later");
+    }
+    return count(request);
+}
+
+std::optional<http::Response> Access::check_key(http::Request& request) {
+    const std::string_view header = request.header("authorization");
+    if (!keys_.has_keys()) {
+        if (is_this_machine(request.remote_address)) return std::nullopt;
+        return problem(401, "no_keys",
+                       "this service has no API key yet and answers clients on its own machine "
+                       "only; its operator makes one with: lastflat keys add NAME");
+    }
+    if (header.substr(0, scheme.size()) != scheme)
+        return problem(401, "key_missing", "send your API key: Authorization: Bearer KEY");
+    const auto id = keys_.check(header.substr(scheme.size()));
+    if (!id) return problem(401, "key_unknown", "this API key is not known, or was revoked");
+    request.principal = *id;
+    return std::nullopt;
+}
+
+std::optional<http::Response> Access::count(http::Request& request) {
+    if (settings_.rate == 0 || request.principal.empty()) return std::nullopt;
+    std::size_t left = 0;
+    bool over = false;
+    std::int64_t seconds = 0;
+    {
+        const std::scoped_lock lock(mutex_);
+        Window& window = windows_[request.principal];
+        const std::int64_t now = now_ms();
+        if (now - window.begin_ms >= window_ms || now < window.begin_ms) window = {now, 0};
+        over = window.requests >= settings_.rate;
+        if (!over) ++window.requests;
+        left = settings_.rate - window.requests;
+        seconds = (window.begin_ms + window_ms - now + 999) / 1000;
+    }
+    request.answer_headers.emplace_back(
+        "RateLimit-Policy", "\"default\";q=" + std::to_string(settings_.rate) + ";w=60");
+    request.answer_headers.emplace_back(
+        "RateLimit", "\"default\";r=" + std::to_string(left) + ";t=" + std::to_string(seconds));
+    if (!over) return std::nullopt;
+    http::Response response = problem(
+        429, "rate_exceeded",
+        "this API key may send " + std::to_string(settings_.rate) + " requests a minute (--rate)");
+    response.headers.emplace_back("Retry-After", std::to_string(seconds));
+    return response;
+}
+
+void Access::allow_origin(http::Request& request) const {
+    if (settings_.allowed_origins.empty()) return;
+    request.answer_headers.emplace_back("Vary", "Origin");
+    const std::string origin(request.header("origin"));
+    const auto& allowed = settings_.allowed_origins;
+    if (origin.empty() || std::find(allowed.begin(), allowed.end(), origin) == allowed.end())
+        return;
+    request.answer_headers.emplace_back("Access-Control-Allow-Origin", origin);
+    request.answer_headers.emplace_back(
+        "Access-Control-Expose-Headers",
+        "Location, ETag, Retry-After, X-Request-Id, RateLimit, RateLimit-Policy, "
+        "Preference-Applied, Idempotent-Replayed, Link, Content-Disposition");
+    if (request.method != "OPTIONS") return;
+    request.answer_headers.emplace_back("Access-Control-Allow-Methods",
+                                        "GET, HEAD, POST, PUT, DELETE");
+    request.answer_headers.emplace_back(
+        "Access-Control-Allow-Headers",
+        "Authorization, Content-Type, Content-Digest, Idempotency-Key, Prefer, Cancel-After, "
+        "X-Flatten-Constraints, X-Request-Id, If-None-Match, Last-Event-ID, Range");
+    request.answer_headers.emplace_back("Access-Control-Max-Age", "600");
+}
+
+std::vector<http::Route> preflight_routes(const std::vector<http::Route>& routes) {
+    std::map<std::string, std::string> allowed;
+    for (const http::Route& route : routes) {
+        std::string& methods = allowed[route.pattern];
+        if (!methods.empty()) methods += ", ";
+        methods += route.method;
+        if (route.method == "GET") methods += ", HEAD";
+    }
+    std::vector<http::Route> preflights;
+    for (const auto& [pattern, methods] : allowed) {
+        preflights.push_back(
+            {"OPTIONS", pattern, [allow = methods + ", OPTIONS"](const http::Request&) {
+                 http::Response response = empty_response(204);
+                 response.headers.emplace_back("Allow", allow);
+                 return response;
+             }});
+    }
+    return preflights;
+}
+
+}  // namespace lastflat::server

@@ -1,0 +1,42 @@
+// Who may ask: API keys, their rate, and the web pages that may call.
+#pragma once
+
+#include <map>
+#include <mutex>
+
+#include "server/http/http.h"
+#include "server/settings.h"
+#include "server/stores/key_store.h"
+
+namespace lastflat::server {
+
+/// Decides about every request before its body is read. With at least one key, every path under
+/// /v1 needs a good one; without any, only clients on this machine are answered.
+class Access {
+public:
+    /// Both must outlive it.
+    Access(KeyStore& keys, const Settings& settings) : keys_(keys), settings_(settings) {}
+
+    /// Sets the principal and the headers of the answer; an answer that ends the request, or
+    /// nothing.
+    [[nodiscard]] std::optional<http::Response> admit(http::Request& request);
+
+private:
+    [[nodiscard]] std::optional<http::Response> check_key(http::Request& request);
+    [[nodiscard]] std::optional<http::Response> count(http::Request& request);
+    void allow_origin(http::Request& request) const;
+
+    struct Window {
+        std::int64_t begin_ms = 0;
+        std::size_t requests = 0;
+    };
+    KeyStore& keys_;
+    const Settings& settings_;
+    std::mutex mutex_;
+    std::map<std::string, Window> windows_;  ///< by key
+};
+
+/// Answers OPTIONS for every path of `routes`, for web pages that ask before they call.
+[[nodiscard]] std::vector<http::Route> preflight_routes(const std::vector<http::Route>& routes);
+
+}  // namespace lastflat::server

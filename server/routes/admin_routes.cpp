@@ -1,0 +1,68 @@
+#include "server/routes/admin_routes.h"
+
+#include <nlohmann/json.hpp>
+
+#include "server/routes/answers.h"
+#include "server/version.h"
+
+namespace lastflat::server {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A store that fails is said, but is no reason to restart the process: the answer is still 200.
+http::Response health(Service& service) {
+    Json json{{"status", service.draining ? "draining" : "ok"}, {"version", version}};
+    try {
+        const JobCounts counts = service.jobs.counts();
+        json["jobs"] = {{"queued", counts.queued}, {"running", counts.running}};
+    } catch (const StoreError&) {
+        json["status"] = "store_unavailable";
+    }
+    return json_response(200, json.dump());
+}
+
+http::Response readiness(Service& service) {
+    const JobCounts counts = service.jobs.counts();
+    if (service.draining) refuse(503, "draining", "the service is ending");
+    const Json json{{"status", "ready"},
+                    {"jobs", {{"queued", counts.queued}, {"running", counts.running}}}};
+    return json_response(200, json.dump());
+}
+
+http::Response metrics(Service& service) {
+    const JobCounts counts = service.jobs.counts();
+    Metrics& metrics = service.metrics;
+    metrics.set("lastflat_jobs_queued", static_cast<double>(counts.queued));
+    metrics.set("lastflat_jobs_running", static_cast<double>(counts.running));
+    metrics.set("lastflat_queue_age_seconds",
+                counts.oldest_queued_ms
+                    ? static_cast<double>(now_ms() - *counts.oldest_queued_ms) / 1000.0
+                    : 0.0);
+    metrics.set("lastflat_workers", static_cast<double>(service.settings.workers));
+    metrics.set("lastflat_workers_busy", static_cast<double>(service.workers.busy()));
+    metrics.set("lastflat_stored_bytes", static_cast<double>(service.blobs.bytes()));
+    http::Response response = json_response(200, metrics.text());
+    response.media_type = "text/plain; version=0.0.4; charset=utf-8";
+    return response;
+}
+
+}  // namespace
+
+http::Route health_route(Service& service) {
+    return {"GET", "/healthz", [&service](const http::Request&) { return health(service); }, false,
+            true};
+}
+
+std::vector<http::Route> admin_routes(Service& service) {
+    return {
+        health_route(service),
+        {"GET", "/readyz",
+         guarded([&service](const http::Request&) { return readiness(service); })},
+        {"GET", "/metrics", guarded([&service](const http::Request&) { return metrics(service); })},
+        {"GET", "/version", [](const http::Request&) {
+             return json_response(200, Json{{"version", version}}.dump());
+         }}};
+}
+
+}  // namespace lastflat::server

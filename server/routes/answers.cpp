@@ -1,0 +1,119 @@
+#include "server/routes/answers.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "api/object_reader.h"
+#include "core/error.h"
+#include "server/problem_map.h"
+#include "server/stores/blob_store.h"
+
+namespace lastflat::server {
+namespace {
+
+constexpr int longest_wait_s = 60;
+
+std::string_view next_item(std::string_view& list) {
+    const std::size_t end = std::min(list.find(','), list.size());
+    std::string_view item = list.substr(0, end);
+    list.remove_prefix(std::min(end + 1, list.size()));
+    while (!item.empty() && item.front() == ' ') item.remove_prefix(1);
+    while (!item.empty() && item.back() == ' ') item.remove_suffix(1);
+    return item;
+}
+
+/// Tags are compared weakly (RFC 9110, 13.1.2).
+std::string_view opaque(std::string_view tag) {
+    return tag.substr(0, 2) == "W/" ? tag.substr(2) : tag;
+}
+
+}  // namespace
+
+void refuse(int status, const char* code, const std::string& detail) {
+    throw Refusal({status, code, "", detail, std::nullopt, std::nullopt});
+}
+
+http::Response json_response(int status, std::string body) {
+    http::Response response;
+    response.status = status;
+    response.media_type = "application/json";
+    response.body = std::make_shared<const std::string>(std::move(body));
+    response.headers.emplace_back("Cache-Control", "no-store");
+    return response;
+}
+
+http::Response empty_response(int status) {
+    http::Response response;
+    response.status = status;
+    return response;
+}
+
+http::Response problem_response(const api::Problem& problem) {
+    http::Response response = json_response(problem.status, api::to_json(problem));
+    response.media_type = "application/problem+json";
+    if (problem.code == "not_finished" || problem.code == "key_in_flight")
+        response.headers.emplace_back("Retry-After", "1");
+    else if (problem.status == 503)
+        response.headers.emplace_back("Retry-After", "5");
+    if (problem.status == 401) response.headers.emplace_back("WWW-Authenticate", "Bearer");
+    return response;
+}
+
+http::Handler guarded(http::Handler handler) {
+    return [handler = std::move(handler)](const http::Request& request) {
+        try {
+            return handler(request);
+        } catch (const Refusal& refusal) {
+            return problem_response(refusal.problem());
+        } catch (const api::InvalidRequest& invalid) {
+            return problem_response(problem_of(invalid));
+        } catch (const Error& error) {
+            return problem_response(problem_of(error));
+        } catch (const StoreError& error) {
+            return problem_response({503, "store_unavailable", "",
+                                     "the service cannot store or read its data now (a full or "
+                                     "broken disk?); nothing was changed, try again later",
+                                     std::nullopt, std::nullopt});
+        } catch (const CorruptBlob& error) {
+            return problem_response(
+                {500, "result_corrupt", "",
+                 "the stored bytes have changed on the disk; post the job again", std::nullopt,
+                 std::nullopt});
+        }
+    };
+}
+
+bool has_already(const http::Request& request, const std::string& etag) {
+    std::string_view list = request.header("if-none-match");
+    while (!list.empty()) {
+        const std::string_view tag = next_item(list);
+        if (tag == "*" || opaque(tag) == opaque(etag)) return true;
+    }
+    return false;
+}
+
+http::Response tagged(const http::Request& request, const std::string& etag,
+                      http::Response response) {
+    if (has_already(request, etag)) {
+        response.status = 304;
+        response.body.reset();
+    }
+    response.headers.emplace_back("ETag", etag);
+    return response;
+}
+
+std::optional<int> preferred_wait(const http::Request& request) {
+    std::string_view list = request.header("prefer");
+    while (!list.empty()) {
+        const std::string_view item = next_item(list);
+        if (item.substr(0, 5) != "wait=") continue;
+        int seconds = 0;
+        const auto [end, error] =
+            std::from_chars(item.data() + 5, item.data() + item.size(), seconds);
+        if (error != std::errc() || end != item.data() + item.size() || seconds < 0) continue;
+        return std::min(seconds, longest_wait_s);
+    }
+    return std::nullopt;
+}
+
+}  // namespace lastflat::server

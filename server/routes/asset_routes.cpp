@@ -1,0 +1,118 @@
+#include "server/routes/asset_routes.h"
+
+#include <nlohmann/json.hpp>
+
+#include "api/base64.h"
+#include "api/job.h"
+#include "server/crypto.h"
+#include "server/routes/answers.h"
+#include "server/routes/submission.h"
+
+namespace lastflat::server {
+namespace {
+
+using http::Request;
+using http::Response;
+using Json = nlohmann::ordered_json;
+
+Response asset_response(int status, const Asset& asset) {
+    const Json json{{"id", asset.digest},
+                    {"bytes", asset.bytes},
+                    {"created_at", api::rfc3339(asset.created_ms)}};
+    Response response = json_response(status, json.dump());
+    response.headers.emplace_back("ETag", "\"" + asset.digest + "\"");
+    return response;
+}
+
+/// `Content-Digest: sha-256=:BASE64:` (RFC 9530) has to be that of the body.
+void check_digest(const Request& request, const std::string& bytes) {
+    constexpr std::string_view algorithm = "sha-256=:";
+    const std::string_view header = request.header("content-digest");
+    const std::size_t begin = header.find(algorithm);
+    if (header.empty()) return;
+    const std::size_t end =
+        begin == std::string_view::npos ? begin : header.find(':', begin + algorithm.size());
+    const auto digest = end == std::string_view::npos
+                            ? std::nullopt
+                            : api::decode_base64(header.substr(begin + algorithm.size(),
+                                                               end - begin - algorithm.size()));
+    if (!digest) refuse(400, "header_invalid", "Content-Digest is not sha-256=:BASE64: (RFC 9530)");
+    if (hexadecimal(*digest) != sha256(bytes))
+        refuse(400, "digest_differs", "the body is not the one of Content-Digest; send it again");
+}
+
+Response add(Service& service, const Request& request) {
+    const http::BodyPart* model = nullptr;
+    for (const http::BodyPart& part : request.body) {
+        if (part.name.empty() || part.name == "model") model = &part;
+    }
+    if (model == nullptr || model->bytes.empty())
+        refuse(422, "model_missing", "the model is empty: send it as the body or the part 'model'");
+    check_digest(request, model->bytes);
+    const auto pin = service.blobs.pin();
+    const std::string digest = service.blobs.put(model->bytes);
+    const bool is_new = service.assets.add(request.principal, digest, model->bytes.size());
+    Response response =
+        asset_response(is_new ? 201 : 200, service.assets.find(request.principal, digest).value());
+    response.headers.emplace_back("Location", "/v1/assets/" + digest);
+    return response;
+}
+
+[[noreturn]] void refuse_unknown(const std::string& id) {
+    refuse(404, "asset_not_found", "there is no asset " + id + "; it may have been deleted");
+}
+
+Response get(Service& service, const Request& request) {
+    const std::string& id = request.captures.at(0);
+    const auto asset = service.assets.find(request.principal, id);
+    if (!asset) refuse_unknown(id);
+    return asset_response(200, *asset);
+}
+
+Response remove(Service& service, const Request& request) {
+    const std::string& id = request.captures.at(0);
+    if (!service.assets.remove(request.principal, id)) refuse_unknown(id);
+    drop_unneeded(service.blobs, service.jobs, {id});
+    return empty_response(204);
+}
+
+Response validate(Service& service, const Request& request) {
+    Submission submission = read_submission(request);
+    if (!submission.asset.empty()) {
+        if (!service.assets.find(request.principal, submission.asset))
+            refuse(422, "asset_not_found", "there is no asset " + submission.asset.substr(0, 80));
+        submission.model = service.blobs.read(submission.asset);
+    }
+    const http::Seat seat(request.waiting_room);
+    if (!seat.is_taken())
+        refuse(503, "validations_full", "too many models are being looked at; try again later");
+    const ProcessEnd end = service.validate(submission.model, submission.request);
+    if (end.kind == ProcessEnd::Kind::timed_out)
+        refuse(422, "job_too_slow", "the model took too long to look at; send a coarser one");
+    if (end.kind != ProcessEnd::Kind::finished)
+        refuse(500, "worker_crashed", "the program broke on this model; the service goes on");
+    if (end.report.empty()) {
+        const Json problem = Json::parse(end.outcome.error);
+        Response response = json_response(problem.at("status"), end.outcome.error);
+        response.media_type = "application/problem+json";
+        return response;
+    }
+    return json_response(200, end.report);
+}
+
+}  // namespace
+
+std::vector<http::Route> asset_routes(Service& service) {
+    const auto route = [&](const char* method, const char* pattern,
+                           Response (*handle)(Service&, const Request&), bool takes_body = false) {
+        return http::Route{method, pattern, guarded([&service, handle](const Request& request) {
+                               return handle(service, request);
+                           }),
+                           takes_body};
+    };
+    return {route("POST", "/v1/assets", add, true), route("GET", "/v1/assets/{digest}", get),
+            route("DELETE", "/v1/assets/{digest}", remove),
+            route("POST", "/v1/validate", validate, true)};
+}
+
+}  // namespace lastflat::server

@@ -1,0 +1,110 @@
+#include "server/routes/batch_routes.h"
+
+#include <nlohmann/json.hpp>
+
+#include "api/object_reader.h"
+#include "api/problem_json.h"
+#include "server/problem_map.h"
+#include "server/routes/answers.h"
+#include "server/routes/job_view.h"
+#include "server/routes/submit.h"
+
+namespace lastflat::server {
+namespace {
+
+using http::Request;
+using http::Response;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_jobs = 200;
+constexpr int deepest = 14;
+
+/// One job's own success or failure: a batch is taken in part.
+Json item(int status, Json content) {
+    return {{"status", status}, {status < 300 ? "job" : "problem", std::move(content)}};
+}
+
+Json refused(const api::Problem& problem) {
+    return item(problem.status, api::problem_json(problem));
+}
+
+Json submit_one(Service& service, const Request& request, const nlohmann::json& job,
+                std::size_t index, std::string& batch) {
+    Request one = request;
+    one.body.clear();
+    if (const auto key = one.headers.find("idempotency-key"); key != one.headers.end())
+        key->second += "/" + std::to_string(index);
+    try {
+        const Submitted submitted =
+            submit(service, one, read_json_submission(job.dump()), "", batch);
+        if (submitted.repeated) batch = submitted.job.batch;
+        return item(submitted.repeated ? 200 : 202, Json::parse(job_json(service, submitted.job)));
+    } catch (const Refusal& refusal) {
+        return refused(refusal.problem());
+    } catch (const api::InvalidRequest& invalid) {
+        return refused(problem_of(invalid));
+    } catch (const Error& error) {
+        return refused(problem_of(error));
+    }
+}
+
+Response post(Service& service, const Request& request) {
+    if (request.body.empty() || request.body.front().media_type != "application/json")
+        refuse(415, "media_type_unsupported", "a batch is sent as application/json");
+    const auto document = api::parse_json(request.body.front().bytes, deepest);
+    api::ObjectReader reader(api::Field{document, ""});
+    const auto jobs = reader.find("jobs");
+    reader.finish();
+    if (!jobs) throw api::InvalidRequest("/jobs", "must be given: a list of jobs");
+    std::string batch = new_job_id();
+    Json items = Json::array();
+    std::size_t taken = 0;
+    for (const api::Field& job : jobs->items(most_jobs)) {
+        items.push_back(submit_one(service, request, job.value, items.size(), batch));
+        taken += items.back().contains("job") ? 1 : 0;
+    }
+    const std::string self = "/v1/batches/" + batch;
+    const Json answer{{"id", batch},
+                      {"taken", taken},
+                      {"refused", items.size() - taken},
+                      {"items", std::move(items)},
+                      {"links", {{"self", self}}}};
+    Response response = json_response(202, answer.dump());
+    response.headers.emplace_back("Location", self);
+    return response;
+}
+
+Response get(Service& service, const Request& request) {
+    const std::string& id = request.captures.at(0);
+    JobFilter filter;
+    filter.batch = id;
+    filter.limit = most_jobs;
+    const JobList list = service.jobs.list(request.principal, filter);
+    if (list.jobs.empty())
+        refuse(404, "batch_not_found", "there is no batch " + id + ", or none of its jobs is left");
+    Json items = Json::array();
+    Json counts = Json::object();
+    bool finished = true;
+    for (auto job = list.jobs.rbegin(); job != list.jobs.rend(); ++job) {
+        items.push_back(Json::parse(job_json(service, *job)));
+        const std::string state(name(job->state));
+        counts[state] = counts.value(state, 0) + 1;
+        finished = finished && is_final(job->state);
+    }
+    const Json answer{{"id", id},
+                      {"finished", finished},
+                      {"states", std::move(counts)},
+                      {"items", std::move(items)}};
+    return json_response(200, answer.dump());
+}
+
+}  // namespace
+
+std::vector<http::Route> batch_routes(Service& service) {
+    return {{"POST", "/v1/jobs:batch",
+             guarded([&service](const Request& request) { return post(service, request); }), true},
+            {"GET", "/v1/batches/{id}",
+             guarded([&service](const Request& request) { return get(service, request); })}};
+}
+
+}  // namespace lastflat::server

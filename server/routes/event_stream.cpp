@@ -1,0 +1,134 @@
+#include "server/routes/event_stream.h"
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "api/job.h"
+#include "server/routes/answers.h"
+#include "server/routes/job_view.h"
+
+namespace lastflat::server {
+namespace {
+
+using Clock = JobWatch::Clock;
+using Json = nlohmann::ordered_json;
+
+constexpr std::chrono::seconds heartbeat{15};
+/// A client that has gone is noticed at the latest then.
+constexpr std::chrono::seconds look{1};
+
+std::string event(std::string_view name, const std::string& id, const std::string& data) {
+    return "event: " + std::string(name) + "\nid: " + id + "\ndata: " + data + "\n\n";
+}
+
+/// One client's view of one job. Lives on its connection's thread.
+class EventStream {
+public:
+    EventStream(Service& service, const http::Request& request, std::int64_t seen)
+        : service_(service),
+          owner_(request.principal),
+          id_(request.captures.at(0)),
+          seat_(request.waiting_room),
+          subscription_(service.watch, id_),
+          seen_(seen) {}
+
+    [[nodiscard]] bool has_seat() const { return seat_.is_taken(); }
+
+    /// Sends what there is, or waits a while. False: it is over.
+    bool step(const http::Write& write) {
+        if (first_) {
+            first_ = false;
+            return write("retry: 2000\n\n") && send_news(write);
+        }
+        if (subscription_.wait_until(Clock::now() + look)) return send_news(write);
+        if (service_.watch.is_closed()) {
+            write("event: shutdown\ndata: {}\n\n");
+            return false;
+        }
+        if (Clock::now() - last_sent_ < heartbeat) return true;
+        last_sent_ = Clock::now();
+        return write(": still here\n\n");
+    }
+
+private:
+    bool send_news(const http::Write& write) {
+        const auto job = service_.jobs.find(owner_, id_);
+        if (!job) {
+            write("event: deleted\ndata: {}\n\n");
+            return false;
+        }
+        std::string news;
+        for (const StateChange& change : service_.jobs.history(id_, seen_)) {
+            if (change.revision > job->revision) break;
+            seen_ = change.revision;
+            progress_seen_ = 0;
+            const Json data{{"state", name(change.state)},
+                            {"at", api::rfc3339(change.at_ms)},
+                            {"attempt", change.attempt}};
+            news += event("state", std::to_string(seen_), data.dump());
+        }
+        if (is_final(job->state)) {
+            news += event("done", std::to_string(job->revision), job_json(service_, *job));
+            write(news);
+            return false;
+        }
+        if (const auto progress = service_.watch.progress(id_);
+            progress && job->state == JobState::running && progress->number != progress_seen_) {
+            progress_seen_ = progress->number;
+            const Json data{{"stage", progress->stage},
+                            {"percent", static_cast<int>(100.0 * progress->fraction)}};
+            news += event("progress", std::to_string(seen_), data.dump());
+        }
+        if (news.empty()) return true;
+        last_sent_ = Clock::now();
+        return write(news);
+    }
+
+    Service& service_;
+    const std::string owner_, id_;
+    const http::Seat seat_;
+    JobWatch::Subscription subscription_;
+    std::int64_t seen_;  ///< the last revision that the client has
+    std::int64_t progress_seen_ = 0;
+    bool first_ = true;
+    Clock::time_point last_sent_ = Clock::now();
+};
+
+std::int64_t last_event(const http::Request& request) {
+    const std::string_view text = request.header("last-event-id");
+    std::int64_t revision = 0;
+    std::from_chars(text.data(), text.data() + text.size(), revision);
+    return revision;
+}
+
+http::Response events(Service& service, const http::Request& request) {
+    const std::string_view accept = request.header("accept");
+    const bool fits = accept.empty() || accept.find("text/event-stream") != std::string::npos ||
+                      accept.find("text/*") != std::string::npos ||
+                      accept.find("*/*") != std::string::npos;
+    if (!fits)
+        refuse(406, "not_acceptable", "this is text/event-stream; poll the job for JSON instead");
+    const JobRecord job = found_job(service, request.principal, request.captures.at(0));
+    const std::int64_t seen = last_event(request);
+    // What an EventSource asks after the end; this answer keeps it from asking again and again.
+    if (is_final(job.state) && seen >= job.revision) return empty_response(204);
+    const auto stream = std::make_shared<EventStream>(service, request, seen);
+    if (!stream->has_seat())
+        refuse(503, "streams_full",
+               "all event streams and long polls are taken (the limit --streams); poll the job");
+    http::Response response;
+    response.media_type = "text/event-stream";
+    response.headers.emplace_back("Cache-Control", "no-store");
+    response.headers.emplace_back("X-Accel-Buffering", "no");
+    response.stream = [stream](const http::Write& write) { return stream->step(write); };
+    return response;
+}
+
+}  // namespace
+
+http::Route event_route(Service& service) {
+    return {"GET", "/v1/jobs/{id}/events",
+            guarded([&service](const http::Request& request) { return events(service, request); })};
+}
+
+}  // namespace lastflat::server

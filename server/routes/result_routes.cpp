@@ -1,0 +1,107 @@
+#include "server/routes/result_routes.h"
+
+#include <nlohmann/json.hpp>
+
+#include "server/routes/answers.h"
+#include "server/routes/job_view.h"
+#include "server/routes/result_format.h"
+
+namespace lastflat::server {
+namespace {
+
+using http::Request;
+using http::Response;
+
+/// The job's own problem, as the answer to who asks for its result.
+[[noreturn]] void refuse_failed(const JobRecord& job) {
+    const auto problem = nlohmann::json::parse(job.error);
+    api::Problem answer;
+    answer.status = 409;
+    answer.code = problem.at("code");
+    answer.detail = "the job failed: " + problem.at("detail").get<std::string>();
+    if (problem.contains("pointer")) answer.pointer = problem.at("pointer");
+    if (problem.contains("position")) answer.position = problem.at("position");
+    throw Refusal(answer);
+}
+
+JobRecord finished_job(const Service& service, const Request& request) {
+    JobRecord job = found_job(service, request.principal, request.captures.at(0));
+    switch (job.state) {
+        case JobState::succeeded: break;
+        case JobState::failed: refuse_failed(job);
+        case JobState::canceled: refuse(409, "canceled", "the job was canceled; it has no result");
+        case JobState::queued:
+        case JobState::running:
+        case JobState::canceling:
+            refuse(409, "not_finished",
+                   "the job is " + std::string(name(job.state)) + "; ask again later");
+    }
+    if (job.result.empty())
+        refuse(410, "result_expired", "the result was kept as long as results are; it is gone");
+    return job;
+}
+
+/// A range of the plain bytes, if one was asked for and the client's copy is of this result.
+void cut_to_range(const Request& request, const std::string& etag, Response& response) {
+    const std::string_view condition = request.header("if-range");
+    if (!condition.empty() && condition != etag) return;
+    const std::uint64_t size = response.body->size();
+    const auto range = wanted_range(request, size);
+    if (!range) return;
+    response.status = 206;
+    response.headers.emplace_back("Content-Range", "bytes " + std::to_string(range->first) + "-" +
+                                                       std::to_string(range->last) + "/" +
+                                                       std::to_string(size));
+    response.body = std::make_shared<const std::string>(
+        response.body->substr(range->first, range->last - range->first + 1));
+}
+
+Response part_response(const Service& service, const Request& request, const JobRecord& job,
+                       std::string_view format, const std::string& type,
+                       const std::string& file_name) {
+    const bool gzip = accepts_gzip(request) && request.header("range").empty();
+    const ResultPart& part = result_part(job, format, gzip);
+    const std::string etag = "\"" + part.digest.substr(0, 32) + "\"";
+    Response response;
+    response.media_type = type;
+    response.headers.emplace_back("Vary", "Accept, Accept-Encoding");
+    response.headers.emplace_back("Cache-Control", "private, no-cache");
+    response.headers.emplace_back("Accept-Ranges", "bytes");
+    if (gzip) response.headers.emplace_back("Content-Encoding", "gzip");
+    response.headers.emplace_back("Content-Disposition", "inline; filename=\"" + file_name + "\"");
+    if (has_already(request, etag)) return tagged(request, etag, std::move(response));
+    response.body = std::make_shared<const std::string>(result_bytes(service, job, part));
+    if (!gzip) cut_to_range(request, etag, response);
+    response.headers.emplace_back("ETag", etag);
+    return response;
+}
+
+Response result_as(const Service& service, const Request& request, ResultFormat format) {
+    const JobRecord job = finished_job(service, request);
+    return part_response(service, request, job, name(format), media_type(format),
+                         job.id + "." + std::string(name(format)));
+}
+
+}  // namespace
+
+std::vector<http::Route> result_routes(Service& service) {
+    std::vector<http::Route> routes{
+        {"GET", "/v1/jobs/{id}/result", guarded([&service](const Request& request) {
+             return result_as(service, request, negotiated_format(request));
+         })},
+        {"GET", "/v1/jobs/{id}/metrics", guarded([&service](const Request& request) {
+             const JobRecord job = finished_job(service, request);
+             return part_response(service, request, job, "metrics", "application/json",
+                                  job.id + ".metrics.json");
+         })}};
+    for (const ResultFormat format :
+         {ResultFormat::json, ResultFormat::svg, ResultFormat::glb, ResultFormat::obj}) {
+        routes.push_back({"GET", "/v1/jobs/{id}/result." + std::string(name(format)),
+                          guarded([&service, format](const Request& request) {
+                              return result_as(service, request, format);
+                          })});
+    }
+    return routes;
+}
+
+}  // namespace lastflat::server

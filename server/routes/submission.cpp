@@ -1,0 +1,90 @@
+#include "server/routes/submission.h"
+
+#include <algorithm>
+
+#include "api/base64.h"
+#include "api/flatten_request.h"
+#include "server/translate.h"
+
+namespace lastflat::server {
+namespace {
+
+/// Everything that can be found wrong without the model's geometry is found here.
+Submission checked(Submission submission, const api::FlattenRequest& request) {
+    if (submission.model.empty() && submission.asset.empty())
+        refuse(422, "model_missing", "the model is empty (0 bytes)");
+    (void)to_options(request);
+    submission.tag = request.tag;
+    return submission;
+}
+
+Submission checked(Submission submission) {
+    const auto request = api::flatten_request_from_json(submission.request);
+    return checked(std::move(submission), request);
+}
+
+Submission from_parts(const http::Request& request) {
+    const http::BodyPart *model = nullptr, *asset = nullptr, *constraints = nullptr;
+    for (const http::BodyPart& part : request.body) {
+        const auto take = [&](const http::BodyPart*& place) {
+            if (place != nullptr)
+                refuse(400, "part_repeated", "the part '" + part.name + "' is there twice");
+            place = &part;
+        };
+        if (part.name == "model")
+            take(model);
+        else if (part.name == "asset_id")
+            take(asset);
+        else if (part.name == "request")
+            take(constraints);
+        else
+            refuse(400, "part_unknown",
+                   "unknown part '" + part.name + "'; known are model, asset_id and request");
+    }
+    if ((model == nullptr) == (asset == nullptr))
+        refuse(422, "model_missing",
+               "send either the part 'model', the last's file, or 'asset_id', an uploaded one");
+    Submission submission;
+    if (model != nullptr) submission.model = model->bytes;
+    if (asset != nullptr) submission.asset = asset->bytes;
+    if (constraints != nullptr) submission.request = constraints->bytes;
+    return checked(std::move(submission));
+}
+
+Submission from_model_alone(const http::Request& request) {
+    const auto constraints = api::decode_base64(request.header("x-flatten-constraints"));
+    if (!constraints) refuse(400, "header_invalid", "X-Flatten-Constraints is not base64url");
+    Submission submission;
+    if (const auto asset = request.query.find("asset_id"); asset != request.query.end())
+        submission.asset = asset->second;
+    if (!request.body.empty()) submission.model = request.body.front().bytes;
+    if (!submission.asset.empty() && !submission.model.empty())
+        refuse(400, "model_repeated", "there is a model in the body beside ?asset_id=; send one");
+    submission.request = *constraints;
+    return checked(std::move(submission));
+}
+
+bool is_form(const http::Request& request) {
+    constexpr std::string_view form = "multipart/form-data";
+    const std::string_view type = request.header("content-type").substr(0, form.size());
+    return std::equal(type.begin(), type.end(), form.begin(), form.end(),
+                      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; });
+}
+
+}  // namespace
+
+Submission read_json_submission(std::string_view text) {
+    api::JsonSubmission json = api::json_submission_from_json(text);
+    Submission submission{
+        std::move(json.model), std::move(json.asset_id), std::move(json.request_text), {}};
+    return checked(std::move(submission), json.request);
+}
+
+Submission read_submission(const http::Request& request) {
+    if (is_form(request)) return from_parts(request);
+    if (!request.body.empty() && request.body.front().media_type == "application/json")
+        return read_json_submission(request.body.front().bytes);
+    return from_model_alone(request);
+}
+
+}  // namespace lastflat::server

@@ -1,0 +1,25 @@
+// The three ways to send a job, read into one.
+#pragma once
+
+#include "server/http/http.h"
+#include "server/routes/answers.h"
+
+namespace lastflat::server {
+
+struct Submission {
+    std::string model;    ///< the bytes; empty if `asset` is given
+    std::string asset;    ///< digest of an asset
+    std::string request;  ///< the constraint JSON, valid; may be empty: every default
+    std::string tag;
+};
+
+/// multipart/form-data with the parts `model` or `asset_id` and, optional, `request`;
+/// application/json with the model in base64 or an asset's id; or the model's bytes alone, its
+/// constraints in the header `X-Flatten-Constraints` (base64url) or absent.
+/// Throws: Refusal, api::InvalidRequest, Error{unsupported_request}.
+[[nodiscard]] Submission read_submission(const http::Request& request);
+
+/// One submission as JSON: {"model": {"data" | "asset_id"}, "request": {...}}.
+[[nodiscard]] Submission read_json_submission(std::string_view text);
+
+}  // namespace lastflat::server

@@ -1,0 +1,20 @@
+// From a submission to a job on the disk.
+#pragma once
+
+#include "server/routes/service.h"
+#include "server/routes/submission.h"
+
+namespace lastflat::server {
+
+struct Submitted {
+    JobRecord job;
+    bool repeated = false;  ///< it was there already, the same
+};
+
+/// Keeps a job; on the disk when this returns. `id`: chosen by the client, else empty.
+/// Throws: Refusal (409, 422, 429, 503), StoreError.
+[[nodiscard]] Submitted submit(Service& service, const http::Request& request,
+                               const Submission& submission, const std::string& id,
+                               const std::string& batch);
+
+}  // namespace lastflat::server

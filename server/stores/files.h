@@ -1,0 +1,47 @@
+// Files that are on the disk when a call returns.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace lastflat::server {
+
+/// The store cannot do its work now (a full or broken disk, a locked database). What was asked for
+/// did not happen; it may be asked for again.
+class StoreError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A file descriptor that closes itself.
+class File {
+public:
+    /// Throws: StoreError naming the path.
+    File(const std::filesystem::path& path, int flags, int mode = 0600);
+    ~File();
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+
+    [[nodiscard]] int fd() const { return fd_; }
+    void write(std::string_view bytes) const;
+    /// Until the disk has it.
+    void sync() const;
+    [[nodiscard]] std::size_t size() const;
+    /// Exactly `size` bytes. Throws: StoreError if there are fewer.
+    [[nodiscard]] std::string read(std::size_t offset, std::size_t size) const;
+
+private:
+    [[noreturn]] void fail(const char* what) const;
+    const std::filesystem::path path_;
+    int fd_ = -1;
+};
+
+/// Makes a rename, a new name or a removal in the folder last.
+void sync_folder(const std::filesystem::path& folder);
+
+/// The file has these bytes or is not there, whatever happens meanwhile.
+void write_durably(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace lastflat::server

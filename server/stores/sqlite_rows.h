@@ -1,0 +1,40 @@
+// What the statements about jobs have in common.
+#pragma once
+
+#include "server/stores/job_store.h"
+#include "server/stores/sqlite.h"
+
+namespace lastflat::server {
+
+/// What a change of state needs to know of a job.
+struct JobRow {
+    std::int64_t seq = 0, revision = 0;
+    JobState state = JobState::queued;
+    int attempt = 0;
+    std::string id, model, result;
+};
+
+/// The columns of `record_of`.
+inline constexpr char record_columns[] =
+    "seq, id, owner, tag, batch, state, reason, fingerprint, model_bytes, created_ms, started_ms, "
+    "finished_ms, cancel_at_ms, attempt, revision, error, result, parts, model";
+[[nodiscard]] JobRecord record_of(const Query& query, const Retention& retention);
+
+/// Of any owner if `owner` is empty.
+[[nodiscard]] std::optional<JobRow> find_row(SqliteConnection& connection, const std::string& owner,
+                                             const std::string& id);
+/// The job while the lease is good; nothing once it was lost.
+[[nodiscard]] std::optional<JobRow> leased_row(SqliteConnection& connection, const Lease& lease);
+
+/// Every change of a job's state goes through here.
+/// Throws: std::logic_error if the job may not become that.
+void change_state(SqliteConnection& connection, JobRow& row, JobState to,
+                  const std::string& reason = {});
+
+/// A new job's first state.
+void note_change(SqliteConnection& connection, const JobRow& row);
+
+/// Forgets the job's row and all that hangs on it.
+void erase_row(SqliteConnection& connection, const JobRow& row);
+
+}  // namespace lastflat::server

@@ -1,0 +1,11 @@
+// The program as a worker: a process of its own for one job, so that whatever a model does to it
+// happens to that job alone.
+#pragma once
+
+namespace lastflat::server {
+
+/// Reads one `WorkOrder` as JSON from standard input, limits itself as that says, runs the job and
+/// writes one JSON object a line to standard output (see `work_messages.h`). Returns the exit code.
+[[nodiscard]] int work_command();
+
+}  // namespace lastflat::server
