@@ -107,12 +107,12 @@ int flatten_command(const fs::path& model, const std::optional<fs::path>& reques
     }
     input.options.threads = std::max(1u, std::thread::hardware_concurrency());
     Progress progress;
-    const RunOutcome outcome = run_job(input, progress);
+    const RunOutcome outcome = run_job(input, Compression::none, progress);
     if (!outcome.output) return report(outcome.error.value());
-    return write_or_report(directory, {{"result.json", outcome.output->json},
-                                       {"flat.obj", outcome.output->obj},
-                                       {"flat.glb", outcome.output->glb},
-                                       {"pattern.svg", outcome.output->svg}});
+    return write_or_report(directory, {{"result.json", outcome.output->json.bytes},
+                                       {"flat.obj", outcome.output->obj.bytes},
+                                       {"flat.glb", outcome.output->glb.bytes},
+                                       {"pattern.svg", outcome.output->svg.bytes}});
 }
 
 int sample_last_command(const SampleLastOptions& options, const fs::path& directory) {

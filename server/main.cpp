@@ -167,7 +167,7 @@ CLI::App* add_sample_last(CLI::App& app, Arguments& a) {
 
 int run(int argc, char** argv) {
     // A worker of the service, not for people: it takes its order from standard input.
-    if (argc == 2 && std::string_view(argv[1]) == "work") return server::work_command();
+    if (argc == 2 && std::string_view(argv[1]) == "work") server::work_command();
     Arguments a;
     CLI::App app(
         "lastflat: 3D shoe lasts to flat patterns whose named curves keep their length exactly");

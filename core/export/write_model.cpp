@@ -1,21 +1,31 @@
 #include "core/export/write_model.h"
 
-#include <cstdarg>
-#include <cstdio>
+#include <array>
+#include <charconv>
 #include <map>
 
 #include "core/export/glb_container.h"
+#include "core/export/number_text.h"
 
 namespace lastflat {
 namespace {
 
-[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
-    char line[160];
-    va_list arguments;
-    va_start(arguments, format);
-    const int length = std::vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    text.append(line, static_cast<std::size_t>(std::min<int>(length, sizeof line - 1)));
+/// A line "v 1.5 2 3".
+template <std::size_t count>
+void append_line(std::string& text, const char* word, const std::array<double, count>& values,
+                 std::chars_format format, int precision) {
+    text += word;
+    for (const double value : values) {
+        text += ' ';
+        append_number(text, value, format, precision);
+    }
+    text += '\n';
+}
+
+void append_integer(std::string& text, Index value) {
+    std::array<char, 16> digits;
+    text.append(digits.data(),
+                std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
 }
 
 /// A name as one OBJ word.
@@ -54,14 +64,21 @@ std::string write_flat_obj(const FlattenResult& result) {
     std::string text = "# lastflat: v in mm on the last, vt in mm on the flat piece\n";
     Index offset = 1;
     for (const FlatRegion& flat : result.regions) {
-        append(text, "g %s\n", obj_word(flat.region.name).substr(0, 120).c_str());
+        text += "g " + obj_word(flat.region.name).substr(0, 120) + "\n";
         for (const Vec3& p : flat.region.positions) {
-            append(text, "v %.9g %.9g %.9g\n", p.x(), p.y(), p.z());
+            append_line(text, "v", std::array{p.x(), p.y(), p.z()}, std::chars_format::general, 9);
         }
-        for (const Vec2& p : flat.chart.uv) append(text, "vt %.12g %.12g\n", p.x(), p.y());
+        for (const Vec2& p : flat.chart.uv)
+            append_line(text, "vt", std::array{p.x(), p.y()}, std::chars_format::general, 12);
         for (const Triangle& t : flat.region.triangles) {
-            const Index a = t[0] + offset, b = t[1] + offset, c = t[2] + offset;
-            append(text, "f %d/%d %d/%d %d/%d\n", a, a, b, b, c, c);
+            text += 'f';
+            for (const Index corner : t) {
+                text += ' ';
+                append_integer(text, corner + offset);
+                text += '/';
+                append_integer(text, corner + offset);
+            }
+            text += '\n';
         }
         offset += static_cast<Index>(flat.region.positions.size());
     }
@@ -95,11 +112,18 @@ std::string write_flat_glb(const FlattenResult& result) {
 
 std::string write_model_obj(const RawMesh& mesh) {
     std::string text = "# mm\n";
-    for (const Vec3& p : mesh.positions) append(text, "v %.4f %.4f %.4f\n", p.x(), p.y(), p.z());
+    for (const Vec3& p : mesh.positions)
+        append_line(text, "v", std::array{p.x(), p.y(), p.z()}, std::chars_format::fixed, 4);
     for (const auto& [label, triangles] : by_label(mesh)) {
         text += "g " + group_name(mesh, label) + "\n";
-        for (const Triangle& t : triangles)
-            append(text, "f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
+        for (const Triangle& t : triangles) {
+            text += 'f';
+            for (const Index corner : t) {
+                text += ' ';
+                append_integer(text, corner + 1);
+            }
+            text += '\n';
+        }
     }
     return text;
 }

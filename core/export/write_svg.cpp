@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <numbers>
 
+#include "core/export/number_text.h"
+
 namespace lastflat {
 namespace {
 
@@ -14,17 +16,16 @@ constexpr double colour_range = 0.05;           // stretch at which the colour i
 constexpr int classes = 10;                     // of colour, to each side of "unstretched"
 
 std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3f", value);
-    std::string trimmed = text;
+    std::string trimmed;
+    append_fixed(trimmed, value, 3);
     while (trimmed.back() == '0') trimmed.pop_back();
     if (trimmed.back() == '.') trimmed.pop_back();
     return trimmed == "-0" ? "0" : trimmed;
 }
 
 std::string fixed(double value, int decimals) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    std::string text;
+    append_fixed(text, value, decimals);
     return text;
 }
 

@@ -19,7 +19,4 @@ struct ResultPack {
 [[nodiscard]] ResultPack write_result_pack(const JobOutput& output,
                                            const std::filesystem::path& file);
 
-/// gzip (RFC 1952) without a time stamp: the same bytes give the same bytes.
-[[nodiscard]] std::string gzip(std::string_view bytes);
-
 }  // namespace lastflat::server

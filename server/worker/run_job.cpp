@@ -1,28 +1,47 @@
 #include "server/worker/run_job.h"
 
+#include <future>
 #include <new>
 
 #include "core/export/write_model.h"
 #include "core/export/write_svg.h"
 #include "server/problem_map.h"
 #include "server/translate.h"
+#include "server/worker/gzip.h"
 
 namespace lastflat::server {
 
 namespace {
 
-std::unique_ptr<const JobOutput> render(const FlattenResult& result) {
+Rendered rendered(std::string bytes, Compression compression) {
+    Rendered both{std::move(bytes), {}};
+    if (compression == Compression::gzip) both.gzip = gzip(both.bytes);
+    return both;
+}
+
+/// Each format on a thread of its own: together they take about as long as a small job.
+std::unique_ptr<const JobOutput> render(const FlattenResult& result, Compression compression) {
+    const auto begin = [&](auto write) {
+        return std::async(std::launch::async, [=] { return rendered(write(), compression); });
+    };
     const api::FlattenResult wire = to_wire(result);
-    return std::make_unique<const JobOutput>(
-        JobOutput{api::to_json(wire), write_svg(result), write_flat_glb(result),
-                  write_flat_obj(result), api::metrics_json(wire)});
+    auto obj = begin([&] { return write_flat_obj(result); });
+    auto svg = begin([&] { return write_svg(result); });
+    auto glb = begin([&] { return write_flat_glb(result); });
+    auto output = std::make_unique<JobOutput>();
+    output->json = rendered(api::to_json(wire), compression);
+    output->metrics = rendered(api::metrics_json(wire), compression);
+    output->svg = svg.get();
+    output->obj = obj.get();
+    output->glb = glb.get();
+    return output;
 }
 
 }  // namespace
 
-RunOutcome run_job(const JobInput& input, Progress& progress) {
+RunOutcome run_job(const JobInput& input, Compression compression, Progress& progress) {
     try {
-        return {render(flatten(input.model, input.options, progress)), std::nullopt};
+        return {render(flatten(input.model, input.options, progress), compression), std::nullopt};
     } catch (const Error& error) {
         if (error.code() == ErrorCode::cancelled) return {};
         return {nullptr, problem_of(error)};

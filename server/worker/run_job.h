@@ -15,10 +15,17 @@ struct JobInput {
     FlattenOptions options;
 };
 
+enum class Compression { none, gzip };
+
+struct Rendered {
+    std::string bytes;
+    std::string gzip;  ///< the same, compressed; empty unless asked for
+};
+
 /// A result in every format that it can be asked for.
 struct JobOutput {
-    std::string json, svg, glb, obj;
-    std::string metrics;  ///< the JSON without coordinates
+    Rendered json, svg, glb, obj;
+    Rendered metrics;  ///< the JSON without coordinates
 };
 
 /// Exactly one of the two, or neither: it was cancelled.
@@ -28,6 +35,7 @@ struct RunOutcome {
 };
 
 /// Never throws: an error of core becomes the outcome's problem.
-[[nodiscard]] RunOutcome run_job(const JobInput& input, Progress& progress);
+[[nodiscard]] RunOutcome run_job(const JobInput& input, Compression compression,
+                                 Progress& progress);
 
 }  // namespace lastflat::server

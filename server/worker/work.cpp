@@ -74,7 +74,7 @@ void flatten(const WorkOrder& order, JobInput input) {
     Progress progress([](Stage stage, double fraction) {
         say({{"stage", name(stage)}, {"fraction", fraction}});
     });
-    const RunOutcome outcome = run_job(input, progress);
+    const RunOutcome outcome = run_job(input, Compression::gzip, progress);
     if (!outcome.output) return say_problem(outcome.error.value());
     try {
         const ResultPack pack = write_result_pack(*outcome.output, order.result);
@@ -107,13 +107,14 @@ void work(const WorkOrder& order) {
 
 }  // namespace
 
-int work_command() {
+void work_command() {
     std::string line;
     std::getline(std::cin, line);
     const WorkOrder order = work_order_of(line);
     limit_self(order);
     work(order);
-    return 0;
+    // All is said and on the disk; giving the memory back piece by piece would only take time.
+    std::_Exit(0);
 }
 
 }  // namespace lastflat::server

@@ -5,7 +5,7 @@
 namespace lastflat::server {
 
 /// Reads one `WorkOrder` as JSON from standard input, limits itself as that says, runs the job and
-/// writes one JSON object a line to standard output (see `work_messages.h`). Returns the exit code.
-[[nodiscard]] int work_command();
+/// writes one JSON object a line to standard output (see `work_messages.h`). Ends the process.
+[[noreturn]] void work_command();
 
 }  // namespace lastflat::server

@@ -13,7 +13,7 @@ TEST_SUITE("server/worker/parallel") {
         const SampleLast last = make_sample_last();
         JobInput input{write_model_obj(last.mesh), test::sample_options(last)};
         Progress progress;
-        const auto expected = run_job(input, progress);
+        const auto expected = run_job(input, Compression::none, progress);
         REQUIRE(expected.output);
         input.options.threads = 2;
         std::array<RunOutcome, 3> outcomes;
@@ -21,13 +21,13 @@ TEST_SUITE("server/worker/parallel") {
         for (RunOutcome& outcome : outcomes) {
             threads.emplace_back([&] {
                 Progress own;
-                outcome = run_job(input, own);
+                outcome = run_job(input, Compression::gzip, own);
             });
         }
         for (std::thread& thread : threads) thread.join();
         for (const RunOutcome& outcome : outcomes) {
             REQUIRE(outcome.output);
-            CHECK(outcome.output->svg == expected.output->svg);
+            CHECK(outcome.output->svg.bytes == expected.output->svg.bytes);
         }
     }
 }
