@@ -15,6 +15,7 @@ COPY --from=build /src/build/release/lastflat /usr/local/bin/lastflat
 USER lastflat
 VOLUME /data
 EXPOSE 8080
+# Clients outside need an API key: docker exec CONTAINER lastflat keys add NAME
 ENV LASTFLAT_LISTEN=0.0.0.0:8080 LASTFLAT_DATA=/data
 HEALTHCHECK --interval=30s --timeout=3s --start-period=5s \
     CMD curl -fsS http://127.0.0.1:8080/healthz || exit 1

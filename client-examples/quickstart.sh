@@ -22,7 +22,7 @@ if ! { cmake --preset release && cmake --build --preset release --target lastfla
 fi
 
 echo "starting the service ..."
-build/release/lastflat serve --listen 127.0.0.1:0 >"$log" 2>&1 &
+build/release/lastflat serve --listen 127.0.0.1:0 --data build/quickstart/data >"$log" 2>&1 &
 service=$!
 trap 'kill "$service" 2>/dev/null || true; wait "$service" 2>/dev/null || true; rm -f "$log"' EXIT
 for _ in $(seq 100); do

@@ -7,6 +7,7 @@ PATH of --get is a cheap route for GET, that of --post a route that takes a body
 server's limit for a body. Exit status 0: every attack was answered as it should be.
 """
 import argparse
+import gzip
 import resource
 import socket
 import sys
@@ -69,11 +70,16 @@ class Attacks:
         self.post = options.post.encode()
         self.body_bytes = options.body_bytes
 
-    def get_head(self, headers=b""):
+    def get_head(self, headers=b"Connection: close\r\n"):
         return b"GET " + self.get + b" HTTP/1.1\r\nHost: a\r\n" + headers + b"\r\n"
 
     def post_head(self, headers=b""):
         return b"POST " + self.post + b" HTTP/1.1\r\nHost: a\r\n" + headers + b"\r\n"
+
+    def pipelined(self):
+        """Three requests in one segment, the last of which asks to close: three answers."""
+        answer = self.ask(self.get_head(b"") * 2 + self.get_head())
+        check("three pipelined GETs", 3, answer.count(b"HTTP/1.1 200"))
 
     def ask(self, raw):
         with connect(self.port) as client:
@@ -100,10 +106,10 @@ class Attacks:
         self.row("xchunked", self.post_head(b"Transfer-Encoding: xchunked\r\n"), 501)
         self.row("gzip, chunked", self.post_head(b"Transfer-Encoding: gzip, chunked\r\n"), 501)
         self.row("gzip body", self.post_head(b"Content-Encoding: gzip\r\nContent-Length: 9\r\n"), 415)
-        self.row("POST without length", self.post_head(), (200, 400, 411, 415, 422))
+        self.row("POST without length", self.post_head(b"Connection: close\r\n"), (200, 400, 411, 415, 422))
         self.row("GET with a body that is a request",
                  self.get_head(b"Content-Length: 40\r\n") + self.get_head(), 400)
-        self.row("three pipelined GETs", self.get_head() * 3, 200)
+        self.pipelined()
         self.row("no Host", b"GET " + self.get + b" HTTP/1.1\r\n\r\n", 400)
         self.row("absolute URI", b"GET http://a/ HTTP/1.1\r\nHost: a\r\n\r\n", 400)
         self.row("unknown method", b"BREW / HTTP/1.1\r\nHost: a\r\n\r\n", 501)
@@ -117,7 +123,7 @@ class Attacks:
         self.row("bare LF", b"GET / HTTP/1.1\nHost: a\n\n", 400)
         self.row("TLS hello", b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + bytes(500), 400)
         self.row("2600 ranges", self.get_head(b"Range: bytes=" + b"0-," * 2599 + b"0-\r\n"), 400)
-        self.row("range past the end", self.get_head(b"Range: bytes=0-9999999999\r\n"), 200)
+        self.row("range past the end", self.get_head(b"Connection: close\r\nRange: bytes=0-9999999999\r\n"), 200)
 
     def sizes(self):
         self.row("URI of 8180 bytes", b"GET /" + b"a" * 8180 + b" HTTP/1.1\r\nHost: a\r\n\r\n", 414)
@@ -135,6 +141,24 @@ class Attacks:
         for text in (b"-2\r\n", b"0x5\r\nhello\r\n0\r\n\r\n", b" 5\r\nhello\r\n0\r\n\r\n", b"5\nhello\n0\n\n",
                      b"5\r\nhello0\r\n\r\n", b"0\r\nX: y\r\n\r\n", b"ffffffffffffffff1\r\n"):
             self.row(f"chunk {text[:14]}", chunked + text, (400, 413))
+
+    def forms(self):
+        """Multipart tricks, and a compressed bomb: 300 MiB of zeros in 300 kB."""
+        def form(*parts, type=b"multipart/form-data; boundary=B", end=b"--B--\r\n"):
+            body = b"".join(b"--B\r\n" + head + b"\r\n\r\n" + data + b"\r\n" for head, data in parts) + end
+            return self.post_head(b"Connection: close\r\nContent-Type: " + type + b"\r\nContent-Length: %d\r\n" % len(body)) + body
+        model = b'Content-Disposition: form-data; name="model"'
+        self.row("1100 parts", form(*[(model, b"")] * 1100), 400)
+        self.row("no last boundary", form((model, b"v 0 0 0"), end=b""), 400)
+        self.row("no boundary", form((model, b""), type=b"multipart/form-data"), 400)
+        self.row("file name before name", form((b'Content-Disposition: form-data; filename="x"; name="model"', b"hello")), (202, 422))
+        self.row("file name of 8 kB", form((model + b"; filename*=UTF-8''" + b"a" * 8000, b"hello")), (202, 400, 422))
+        self.row("a path as file name", form((model + b'; filename="../../etc/passwd"', b"hello")), (202, 422))
+        bomb = gzip.compress(bytes(300 << 20), 9)
+        self.row("a compressed bomb", self.post_head(b"Content-Encoding: gzip\r\nContent-Length: %d\r\n" % len(bomb)) + bomb, 415)
+        deep = b'{"model": {"data": "AA"}, "request": ' + b"[" * 100000 + b"]" * 100000 + b"}"
+        self.row("JSON 100000 deep", self.post_head(
+            b"Connection: close\r\nContent-Type: application/json\r\nContent-Length: %d\r\n" % len(deep)) + deep, (400, 422))
 
     def stream(self, name, head, piece, most, wanted):
         start = time.monotonic()
@@ -181,6 +205,7 @@ def main():
     attacks = Attacks(parser.parse_args())
     attacks.heads()
     attacks.sizes()
+    attacks.forms()
     attacks.crowds()
     print("\n".join(["failed: " + name for name in failures]) or "all as it should be")
     return 1 if failures else 0
