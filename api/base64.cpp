@@ -14,6 +14,19 @@ int value_of(char c) {
     return -1;
 }
 
+std::string encoded(std::string_view bytes, const char* alphabet) {
+    std::string text;
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : bytes) {
+        bits = bits << 8 | static_cast<unsigned char>(c);
+        for (count += 8; count >= 6; count -= 6)
+            text.push_back(alphabet[bits >> (count - 6) & 63u]);
+    }
+    if (count > 0) text.push_back(alphabet[bits << (6 - count) & 63u]);
+    return text;
+}
+
 }  // namespace
 
 std::optional<std::string> decode_base64(std::string_view text) {
@@ -41,16 +54,13 @@ std::optional<std::string> decode_base64(std::string_view text) {
 }
 
 std::string encode_base64url(std::string_view bytes) {
-    constexpr char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
-    std::string text;
-    std::uint32_t bits = 0;
-    int count = 0;
-    for (const char c : bytes) {
-        bits = bits << 8 | static_cast<unsigned char>(c);
-        for (count += 8; count >= 6; count -= 6)
-            text.push_back(alphabet[bits >> (count - 6) & 63u]);
-    }
-    if (count > 0) text.push_back(alphabet[bits << (6 - count) & 63u]);
+    return encoded(bytes, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_");
+}
+
+std::string encode_base64(std::string_view bytes) {
+    std::string text =
+        encoded(bytes, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/");
+    while (text.size() % 4 != 0) text += '=';
     return text;
 }
 

@@ -11,6 +11,8 @@ namespace lastflat::api {
 /// space is not allowed.
 [[nodiscard]] std::optional<std::string> decode_base64(std::string_view text);
 
+/// base64 with padding.
+[[nodiscard]] std::string encode_base64(std::string_view bytes);
 /// base64url without padding.
 [[nodiscard]] std::string encode_base64url(std::string_view bytes);
 

@@ -103,6 +103,14 @@ CLI::App* add_serve(CLI::App& app, Arguments& a) {
     options.add_duration("keep-results", s.result_ms, "How long a result is kept");
     options.add_duration("keep-jobs", s.job_ms, "How long a finished job is kept");
     options.add_duration("grace", s.grace_ms, "What running jobs get when the service ends");
+    const std::map<std::string, server::WebhookTargets> targets{
+        {"off", server::WebhookTargets::none},
+        {"public", server::WebhookTargets::anywhere_public},
+        {"any", server::WebhookTargets::anywhere}};
+    options
+        .add("webhooks", s.webhooks, "Where webhooks may go: off, public (no private address), any")
+        ->transform(CLI::CheckedTransformer(targets))
+        ->default_str("off");
     options.add("allow-origin", s.allowed_origins, "Web pages that may call (CORS), by origin");
     return serve;
 }

@@ -22,9 +22,12 @@
 #include "server/routes/job_routes.h"
 #include "server/routes/result_routes.h"
 #include "server/routes/service.h"
+#include "server/routes/webhook_routes.h"
 #include "server/stores/data_directory.h"
 #include "server/stores/sqlite_accounts.h"
 #include "server/stores/sqlite_store.h"
+#include "server/stores/sqlite_webhooks.h"
+#include "server/webhooks/dispatcher.h"
 
 namespace lastflat::server {
 namespace {
@@ -210,7 +213,7 @@ Validator validator(const Settings& settings, const std::filesystem::path& work)
     };
 }
 
-std::vector<http::Route> public_routes(Service& service) {
+std::vector<http::Route> public_routes(Service& service, WebhookStore& webhooks) {
     std::vector<http::Route> routes = job_routes(service);
     const auto add = [&](std::vector<http::Route> more) {
         routes.insert(routes.end(), std::make_move_iterator(more.begin()),
@@ -220,6 +223,7 @@ std::vector<http::Route> public_routes(Service& service) {
     add({event_route(service)});
     add(asset_routes(service));
     add(batch_routes(service));
+    add(webhook_routes(webhooks, service.settings));
     add({health_route(service)});
     add(document_routes());
     add(preflight_routes(routes));
@@ -244,6 +248,7 @@ void serve(const Settings& asked) {
     SqliteStore jobs(database, {settings.result_ms, settings.job_ms});
     SqliteAssets assets(database);
     SqliteKeys keys(database);
+    SqliteWebhooks webhooks(database);
     JobWatch watch;
     Estimate estimate;
     recover(jobs, blobs);
@@ -261,13 +266,20 @@ void serve(const Settings& asked) {
                     validator(settings, data.work()),
                     keys.secret("cursor")};
     Housekeeping housekeeping(service);
+    std::optional<WebhookDispatcher> dispatcher;
+    if (settings.webhooks != WebhookTargets::none) {
+        const bool anywhere = settings.webhooks == WebhookTargets::anywhere;
+        dispatcher.emplace(
+            webhooks, [anywhere](const DueDelivery& due) { return post_message(due, anywhere); });
+    }
     Access access(keys, settings);
     http::ServerHooks public_hooks = hooks(metrics);
     public_hooks.admit = [&access](http::Request& request) { return access.admit(request); };
     std::optional<Listener> admin;
     if (settings.admin)
         admin.emplace(admin_routes(service), admin_limits(), hooks(metrics), *settings.admin);
-    Listener main(public_routes(service), public_limits(settings), public_hooks, settings.listen);
+    Listener main(public_routes(service, webhooks), public_limits(settings), public_hooks,
+                  settings.listen);
     if (!keys.has_keys())
         log_event("open", {{"why",
                             "there is no API key: clients on this machine need none, others "

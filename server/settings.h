@@ -14,6 +14,8 @@ struct Address {
     int port = 0;
 };
 
+enum class WebhookTargets { none, anywhere_public, anywhere };
+
 struct Settings {
     Address listen{"127.0.0.1", 8080};
     std::optional<Address> admin;  ///< of health, readiness and metrics
@@ -31,7 +33,8 @@ struct Settings {
     std::int64_t result_ms = 24 * 3600'000LL;   ///< how long a result is kept
     std::int64_t job_ms = 7 * 24 * 3600'000LL;  ///< how long a finished job is kept
     std::int64_t grace_ms = 20'000;             ///< for running jobs when the service ends
-    std::vector<std::string> allowed_origins;   ///< web pages that may call (CORS)
+    WebhookTargets webhooks = WebhookTargets::none;
+    std::vector<std::string> allowed_origins;  ///< web pages that may call (CORS)
 };
 
 }  // namespace lastflat::server

@@ -1,5 +1,6 @@
 #include "server/stores/sqlite_rows.h"
 
+#include "api/job.h"
 #include "server/jobs/result_parts.h"
 
 namespace lastflat::server {
@@ -68,10 +69,41 @@ std::optional<JobRow> leased_row(SqliteConnection& connection, const Lease& leas
     return row_of(query);
 }
 
+void add_delivery(SqliteConnection& connection, const std::string& webhook,
+                  const std::string& event, const nlohmann::ordered_json& data) {
+    const std::int64_t now = now_ms();
+    const nlohmann::ordered_json payload{
+        {"type", event}, {"timestamp", api::rfc3339(now)}, {"data", data}};
+    Query(connection.prepared("INSERT INTO deliveries (id, webhook, event, payload, created_ms, "
+                              "next_ms) VALUES (?, ?, ?, ?, ?, ?)"))
+        .bind("msg_" + new_job_id(), webhook, event, payload.dump(), now, now)
+        .run();
+}
+
 void note_change(SqliteConnection& connection, const JobRow& row) {
     Query(connection.prepared("INSERT INTO changes VALUES (?, ?, ?, ?, ?)"))
         .bind(row.seq, row.revision, now_ms(), name(row.state), row.attempt)
         .run();
+}
+
+/// A message to each webhook of the job's owner that wants this state.
+void tell_webhooks(SqliteConnection& connection, const JobRow& row) {
+    const std::string event = "job." + std::string(name(row.state));
+    Query query(connection.prepared(
+        "SELECT w.id, j.tag FROM webhooks w JOIN jobs j ON j.owner = w.owner "
+        "WHERE j.seq = ?1 AND instr(' ' || w.events || ' ', ' ' || ?2 || ' ') > 0"));
+    query.bind(row.seq, event);
+    std::vector<std::string> webhooks;
+    std::string tag;
+    while (query.next()) {
+        webhooks.push_back(query.text(0));
+        tag = query.text(1);
+    }
+    for (const std::string& webhook : webhooks) {
+        nlohmann::ordered_json data{{"id", row.id}, {"state", name(row.state)}};
+        if (!tag.empty()) data["tag"] = tag;
+        add_delivery(connection, webhook, event, data);
+    }
 }
 
 void change_state(SqliteConnection& connection, JobRow& row, JobState to,
@@ -94,6 +126,7 @@ void change_state(SqliteConnection& connection, JobRow& row, JobState to,
         .bind(row.seq, name(to), row.revision, row.attempt, reason, now_ms())
         .run();
     note_change(connection, row);
+    if (is_final(to)) tell_webhooks(connection, row);
 }
 
 void erase_row(SqliteConnection& connection, const JobRow& row) {

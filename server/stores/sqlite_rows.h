@@ -1,6 +1,8 @@
 // What the statements about jobs have in common.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include "server/stores/job_store.h"
 #include "server/stores/sqlite.h"
 
@@ -33,6 +35,10 @@ void change_state(SqliteConnection& connection, JobRow& row, JobState to,
 
 /// A new job's first state.
 void note_change(SqliteConnection& connection, const JobRow& row);
+
+/// A message to a webhook, to be sent at once.
+void add_delivery(SqliteConnection& connection, const std::string& webhook,
+                  const std::string& event, const nlohmann::ordered_json& data);
 
 /// Forgets the job's row and all that hangs on it.
 void erase_row(SqliteConnection& connection, const JobRow& row);

@@ -92,6 +92,34 @@ CREATE TABLE secrets (
     name  TEXT NOT NULL PRIMARY KEY,
     value TEXT NOT NULL
 ) WITHOUT ROWID;
+)sql",
+                                R"sql(
+CREATE TABLE webhooks (
+    id         TEXT NOT NULL PRIMARY KEY,
+    owner      TEXT NOT NULL,
+    url        TEXT NOT NULL,
+    secret     TEXT NOT NULL,
+    events     TEXT NOT NULL,
+    created_ms INTEGER NOT NULL
+) WITHOUT ROWID;
+CREATE INDEX webhooks_by_owner ON webhooks (owner);
+
+-- Messages to be sent, written together with the change that they tell of.
+CREATE TABLE deliveries (
+    seq        INTEGER PRIMARY KEY AUTOINCREMENT,
+    id         TEXT NOT NULL,
+    webhook    TEXT NOT NULL,
+    event      TEXT NOT NULL,
+    payload    TEXT NOT NULL,
+    created_ms INTEGER NOT NULL,
+    attempt    INTEGER NOT NULL DEFAULT 0,
+    next_ms    INTEGER,
+    delivered  INTEGER NOT NULL DEFAULT 0,
+    status     INTEGER NOT NULL DEFAULT 0,
+    error      TEXT NOT NULL DEFAULT ''
+);
+CREATE INDEX deliveries_due ON deliveries (next_ms) WHERE next_ms IS NOT NULL;
+CREATE INDEX deliveries_by_webhook ON deliveries (webhook, seq);
 )sql"};
 
 }  // namespace

@@ -264,7 +264,7 @@ def walk_http(walk):
         walk.ask(method, path, headers=[f"X-{i}: 1" for i in range(120)])
         walk.ask(method, path, query="?" + "a" * 9000)
         walk.ask(method, path, version="HTTP/3.0")
-        if method not in ("POST", "PUT") or path.endswith("/cancel"):
+        if method not in ("POST", "PUT") or path.endswith(("/cancel", "/test")):
             walk.ask(method, path, headers=["Content-Length: 2", "Content-Type: text/plain"])
         if method != "HEAD":
             waiting.append((method, path, walk.server.open(f"{method} {path_of(path, NO_JOB)} HTTP/1.1\r\n".encode())))
@@ -484,6 +484,43 @@ def walk_keys(program, contract, example):
             server.stop()
 
 
+def walk_webhooks(program, contract):
+    """Making, testing, seeing and dropping webhooks; what is sent is looked at by webhooks.bats."""
+    json_type = "Content-Type: application/json"
+    hook = b'{"url": "http://127.0.0.1:9/", "events": ["job.failed"]}'
+    server = Server(program)
+    try:
+        walk = Walk(server, contract)
+        walk.expect(403, "webhooks_off", "POST", "/v1/webhooks", headers=[json_type], body=hook)
+        walk.expect(403, "webhooks_off", "POST", "/v1/webhooks/{id}/test")
+    finally:
+        server.stop()
+    server = Server(program, "--webhooks", "public")
+    try:
+        walk = Walk(server, contract)
+        id = walk.expect(201, None, "POST", "/v1/webhooks", headers=[json_type], body=hook)["id"]
+        walk.expect(202, None, "POST", "/v1/webhooks/{id}/test", id=id)
+        end = time.monotonic() + 10
+        while not (sent := walk.expect(200, None, "GET", "/v1/webhooks/{id}/deliveries", id=id)["items"])[0].get("error"):
+            assert time.monotonic() < end, sent
+            time.sleep(0.05)
+        walk.expect(415, "media_type_unsupported", "POST", "/v1/webhooks", body=hook)
+        walk.expect(422, "invalid_request", "POST", "/v1/webhooks", headers=[json_type], body=b'{"url": "ftp://x/"}')
+        for _ in range(15):
+            walk.expect(201, None, "POST", "/v1/webhooks", headers=[json_type], body=hook)
+        walk.expect(422, "too_many_webhooks", "POST", "/v1/webhooks", headers=[json_type], body=hook)
+        for method in ("GET", "HEAD"):
+            walk.expect(200, None, method, "/v1/webhooks")
+            for path in ("/v1/webhooks/{id}", "/v1/webhooks/{id}/deliveries"):
+                walk.expect(200, None, method, path, id=id)
+                walk.expect(404, "webhook_not_found" if method == "GET" else None, method, path)
+        walk.expect(404, "webhook_not_found", "POST", "/v1/webhooks/{id}/test")
+        walk.expect(204, None, "DELETE", "/v1/webhooks/{id}", id=id)
+        walk.expect(404, "webhook_not_found", "DELETE", "/v1/webhooks/{id}", id=id)
+    finally:
+        server.stop()
+
+
 def walk_expiry(program, contract, example):
     """A service that keeps results for a second and jobs for two."""
     server = Server(program, "--keep-results", "1s", "--keep-jobs", "3s", "--streams", "0")
@@ -541,6 +578,7 @@ def main():
         server.stop()
     walk_keys(program, contract, example)
     walk_expiry(program, contract, example)
+    walk_webhooks(program, contract)
 
     exercised = {(m, p) for m, p, _ in contract.seen}
     for method, path, _ in contract.operations():

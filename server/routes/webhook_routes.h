@@ -1,0 +1,14 @@
+// Webhooks: who wants to be told, and what was sent.
+#pragma once
+
+#include "server/http/http.h"
+#include "server/settings.h"
+#include "server/stores/webhook_store.h"
+
+namespace lastflat::server {
+
+/// Both must outlive the routes.
+[[nodiscard]] std::vector<http::Route> webhook_routes(WebhookStore& webhooks,
+                                                      const Settings& settings);
+
+}  // namespace lastflat::server

@@ -1,0 +1,60 @@
+#include "core/inspect.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/helpers/sample.h"
+
+namespace lastflat {
+
+TEST_SUITE("core/inspect") {
+    TEST_CASE("a square is open, has one border and flattens") {
+        const Inspection found =
+            inspect("g a\nv 0 0 0\nv 10 0 0\nv 10 20 0\nv 0 20 0\nv 9 9 9\nf 1 2 3\nf 1 3 4\n", {});
+        CHECK(found.file_vertices == 5);
+        CHECK(found.vertices == 4);
+        CHECK(found.triangles == 2);
+        CHECK(found.components == 1);
+        CHECK(found.area_mm2 == doctest::Approx(200.0));
+        REQUIRE(found.border_loops_mm.size() == 1);
+        CHECK(found.border_loops_mm[0] == doctest::Approx(60.0));
+        CHECK(found.size_mm.y() == doctest::Approx(20.0));
+        CHECK(found.groups == std::vector<std::pair<std::string, std::size_t>>{{"a", 2}});
+        CHECK_FALSE(found.fault.has_value());
+        REQUIRE(found.regions.size() == 1);
+        CHECK(found.regions[0].border_mm == doctest::Approx(60.0));
+    }
+
+    TEST_CASE("a closed surface is described, and why it does not flatten") {
+        const Inspection found =
+            inspect("v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n", {});
+        CHECK(found.border_loops_mm.empty());
+        REQUIRE(found.fault.has_value());
+        CHECK(found.fault->code() == ErrorCode::region_not_disk);
+        CHECK(found.regions.empty());
+    }
+
+    TEST_CASE("two pieces are two components") {
+        const Inspection found = inspect(
+            "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 20 0 0\nv 29 0 0\nv 20 9 0\nf 1 2 3\nf 4 5 6\n", {});
+        CHECK(found.components == 2);
+        CHECK(found.border_loops_mm.size() == 2);
+    }
+
+    TEST_CASE("the sample last is what it is made as") {
+        const SampleLast last = make_sample_last();
+        const Inspection found = inspect(write_model_obj(last.mesh), test::sample_options(last));
+        CHECK(found.regions.size() == 2);
+        CHECK(found.border_loops_mm.size() == 2);  // topline and featherline
+        CHECK_FALSE(found.fault.has_value());
+    }
+
+    TEST_CASE("what is no surface is an error") {
+        CHECK_THROWS_AS((void)inspect("hello", {}), Error);
+        CHECK_THROWS_AS((void)inspect("v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nv 0 0 -9\n"
+                                      "f 1 2 3\nf 1 2 4\nf 1 2 5\n",
+                                      {}),
+                        Error);
+    }
+}
+
+}  // namespace lastflat

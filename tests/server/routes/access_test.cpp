@@ -1,0 +1,166 @@
+#include "server/routes/access.h"
+
+#include <doctest/doctest.h>
+
+#include "api/job.h"
+#include "server/duration.h"
+#include "server/observe/metrics.h"
+#include "server/routes/answers.h"
+#include "server/stores/sqlite_accounts.h"
+#include "tests/helpers/temporary_folder.h"
+
+namespace lastflat::server {
+namespace {
+
+struct AccessSetting {
+    lastflat::test::TemporaryFolder folder;
+    SqliteDatabase database{folder.path() / "jobs.sqlite"};
+    SqliteKeys keys{database};
+    Settings settings;
+    Access access{keys, settings};
+
+    static http::Request request(const std::string& key, const std::string& from = "127.0.0.1",
+                                 const std::string& path = "/v1/jobs") {
+        http::Request request;
+        request.method = "GET";
+        request.path = path;
+        request.remote_address = from;
+        if (!key.empty()) request.headers["authorization"] = "Bearer " + key;
+        return request;
+    }
+    int status(http::Request request) {
+        const auto refused = access.admit(request);
+        return refused ? refused->status : 200;
+    }
+};
+
+std::string header(const http::Request& request, const std::string& name) {
+    for (const auto& [n, value] : request.answer_headers) {
+        if (n == name) return value;
+    }
+    return {};
+}
+
+}  // namespace
+
+TEST_SUITE("server/routes/access") {
+    TEST_CASE("without a key, this machine is answered and no other; with one, its bearer alone") {
+        AccessSetting s;
+        CHECK(s.status(s.request("")) == 200);
+        CHECK(s.status(s.request("", "::1")) == 200);
+        CHECK(s.status(s.request("", "::ffff:127.0.0.1")) == 200);
+        CHECK(s.status(s.request("", "192.168.0.7")) == 401);
+        CHECK(s.status(s.request("", "1270.0.0.1")) == 401);
+        const std::string key = s.keys.add("one");
+        CHECK(s.status(s.request("")) == 401);
+        CHECK(s.status(s.request("wrong")) == 401);
+        CHECK(s.status(s.request(key, "192.168.0.7")) == 200);
+        http::Request basic = s.request("");
+        basic.headers["authorization"] = "Basic " + key;
+        CHECK(s.status(basic) == 401);
+        CHECK(s.status(s.request("", "192.168.0.7", "/healthz")) == 200);
+        CHECK(s.keys.revoke(s.keys.list().at(0).id));
+        CHECK(s.status(s.request(key, "192.168.0.7")) == 401);
+    }
+
+    TEST_CASE("a key has its rate, says what is left, and shares it with nobody") {
+        AccessSetting s;
+        s.settings.rate = 3;
+        const std::string one = s.keys.add("one"), two = s.keys.add("two");
+        http::Request first = s.request(one);
+        CHECK_FALSE(s.access.admit(first).has_value());
+        CHECK(header(first, "RateLimit-Policy") == "\"default\";q=3;w=60");
+        CHECK(header(first, "RateLimit").rfind("\"default\";r=2;t=", 0) == 0);
+        CHECK(s.status(s.request(one)) == 200);
+        CHECK(s.status(s.request(one)) == 200);
+        http::Request over = s.request(one);
+        const auto refused = s.access.admit(over);
+        REQUIRE(refused.has_value());
+        CHECK(refused->status == 429);
+        CHECK(s.status(s.request(two)) == 200);
+    }
+
+    TEST_CASE("only the web pages that are allowed may call") {
+        AccessSetting s;
+        s.settings.allowed_origins = {"https://studio.example"};
+        const auto allowed = [&](const char* origin) {
+            http::Request request = s.request("");
+            request.headers["origin"] = origin;
+            (void)s.access.admit(request);
+            return header(request, "Access-Control-Allow-Origin");
+        };
+        CHECK(allowed("https://studio.example") == "https://studio.example");
+        CHECK(allowed("https://studio.example.evil") == "");
+        CHECK(allowed("null") == "");
+    }
+}
+
+TEST_SUITE("server/routes/answers") {
+    TEST_CASE("tags are compared weakly, and a list of them too") {
+        http::Request request;
+        CHECK_FALSE(has_already(request, "\"a\""));
+        request.headers["if-none-match"] = "\"x\", W/\"a\"";
+        CHECK(has_already(request, "\"a\""));
+        CHECK(has_already(request, "W/\"x\""));
+        CHECK_FALSE(has_already(request, "\"b\""));
+        request.headers["if-none-match"] = "*";
+        CHECK(has_already(request, "\"b\""));
+    }
+
+    TEST_CASE("a preference to wait is read, bounded, and never an error") {
+        const auto wait = [](const char* prefer) {
+            http::Request request;
+            request.headers["prefer"] = prefer;
+            return preferred_wait(request).value_or(-1);
+        };
+        CHECK(wait("wait=5") == 5);
+        CHECK(wait("respond-async, wait=100") == 60);
+        for (const char* none : {"", "wait", "wait=", "wait=x", "wait=-1", "wait=5x"})
+            CHECK(wait(none) == -1);
+    }
+}
+
+TEST_SUITE("server/duration") {
+    TEST_CASE("durations are numbers with a unit") {
+        CHECK(duration_ms("90") == 90'000);
+        CHECK(duration_ms("90s") == 90'000);
+        CHECK(duration_ms("2m") == 120'000);
+        CHECK(duration_ms("1h") == 3'600'000);
+        CHECK(duration_ms("7d") == 604'800'000);
+        for (const char* none : {"", "s", "-1s", "1.5h", "2 m", "1w", "99999999999"})
+            CHECK_FALSE(duration_ms(none).has_value());
+    }
+
+    TEST_CASE("times on the wire are read back as they were written") {
+        for (const std::int64_t ms : {0LL, 1'709'251'199'123LL, 1'795'535'560'885LL})
+            CHECK(api::rfc3339_ms(api::rfc3339(ms)) == ms);
+        CHECK(api::rfc3339_ms("2026-03-01T08:00:00Z") == 1'772'352'000'000);
+        CHECK(api::rfc3339_ms("2026-03-01T08:00:00.5Z") == 1'772'352'000'500);
+        for (const char* none :
+             {"", "today", "2026-03-01", "2026-03-01T08:00:00", "2026-03-01T08:00:00+01:00"})
+            CHECK_FALSE(api::rfc3339_ms(none).has_value());
+    }
+}
+
+TEST_SUITE("server/observe/metrics") {
+    TEST_CASE("counters add, histograms cumulate, labels are escaped") {
+        Metrics metrics;
+        metrics.count("lastflat_http_requests_total", {{"route", "a\"b\\c\nd"}});
+        metrics.count("lastflat_http_requests_total", {{"route", "a\"b\\c\nd"}}, 2);
+        metrics.observe("lastflat_job_seconds", 0.02, {{"outcome", "succeeded"}});
+        metrics.observe("lastflat_job_seconds", 5.0, {{"outcome", "succeeded"}});
+        const std::string text = metrics.text();
+        for (const char* line :
+             {"# TYPE lastflat_job_seconds histogram\n",
+              "lastflat_http_requests_total{route=\"a\\\"b\\\\c\\nd\"} 3\n",
+              "lastflat_job_seconds_bucket{outcome=\"succeeded\",le=\"0.01\"} 0\n",
+              "lastflat_job_seconds_bucket{outcome=\"succeeded\",le=\"0.03\"} 1\n",
+              "lastflat_job_seconds_bucket{outcome=\"succeeded\",le=\"+Inf\"} 2\n",
+              "lastflat_job_seconds_count{outcome=\"succeeded\"} 2\n"}) {
+            CAPTURE(line);
+            CHECK(text.find(line) != std::string::npos);
+        }
+    }
+}
+
+}  // namespace lastflat::server

@@ -1,0 +1,153 @@
+#include <arpa/inet.h>
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <cstring>
+
+#include "server/jobs/job.h"
+#include "server/stores/sqlite_webhooks.h"
+#include "server/webhooks/dispatcher.h"
+#include "server/webhooks/private_address.h"
+#include "tests/server/stores/test_store.h"
+
+namespace lastflat::server {
+namespace {
+
+bool private_address(const char* text) {
+    sockaddr_storage storage{};
+    auto& v4 = reinterpret_cast<sockaddr_in&>(storage);
+    auto& v6 = reinterpret_cast<sockaddr_in6&>(storage);
+    if (inet_pton(AF_INET, text, &v4.sin_addr) == 1) {
+        v4.sin_family = AF_INET;
+    } else {
+        REQUIRE(inet_pton(AF_INET6, text, &v6.sin6_addr) == 1);
+        v6.sin6_family = AF_INET6;
+    }
+    return is_private(reinterpret_cast<sockaddr&>(storage));
+}
+
+Webhook webhook(const std::string& id, const std::string& owner, const std::string& events) {
+    return {id, owner, "http://127.0.0.1:9/", "whsec_AAAA", events, 0};
+}
+
+}  // namespace
+
+TEST_SUITE("server/webhooks/private_address") {
+    TEST_CASE("addresses inside are private, in every way to write them") {
+        for (const char* inside : {"127.0.0.1",
+                                   "127.255.0.9",
+                                   "10.1.2.3",
+                                   "172.16.0.1",
+                                   "172.31.255.255",
+                                   "192.168.1.1",
+                                   "169.254.169.254",
+                                   "100.64.0.1",
+                                   "0.0.0.0",
+                                   "224.0.0.1",
+                                   "255.255.255.255",
+                                   "::1",
+                                   "::",
+                                   "fe80::1",
+                                   "fd00::1",
+                                   "fc00::1",
+                                   "ff02::1",
+                                   "::ffff:10.0.0.1",
+                                   "::ffff:127.0.0.1",
+                                   "64:ff9b::a00:1",
+                                   "2002:a00:1::",
+                                   "2001:db8::1",
+                                   "2001:0:1::1"}) {
+            CAPTURE(inside);
+            CHECK(private_address(inside));
+        }
+        for (const char* outside :
+             {"1.1.1.1", "93.184.216.34", "172.32.0.1", "172.15.0.1", "192.169.0.1", "11.0.0.1",
+              "100.128.0.1", "2606:4700::1111", "2002:101:101::", "::ffff:8.8.8.8"}) {
+            CAPTURE(outside);
+            CHECK_FALSE(private_address(outside));
+        }
+    }
+}
+
+TEST_SUITE("server/webhooks/post_message") {
+    TEST_CASE("a message is signed as the standard's own example") {
+        // Standard Webhooks, reference libraries' test vector.
+        CHECK(signature("whsec_MfKQ9r8GKYqrTwjUPD8ILPZIo2LaLaSw", "msg_p5jXN8AQM9LWM0D4loKWxJek",
+                        1614265330, "{\"test\": 2432232314}") ==
+              "v1,g0hM9SsE+OTPJTGt/tmIKtSyZlE3uFJELVlNIOLJ1OE=");
+    }
+
+    TEST_CASE("only http and https without a user name are addresses") {
+        for (const char* good : {"http://a/", "https://a.example:8443/b?c=d", "http://[::1]/"})
+            CHECK(is_webhook_url(good));
+        for (const char* bad : {"", "a", "ftp://a/", "file:///etc/passwd", "http://u@a/",
+                                "http://u:w@a/", "javascript:1"})
+            CHECK_FALSE(is_webhook_url(bad));
+    }
+}
+
+TEST_SUITE("server/webhooks/dispatcher") {
+    TEST_CASE("pauses grow, and end") {
+        std::int64_t before = 0;
+        int attempts = 1;
+        while (const auto wait = back_off_ms(attempts)) {
+            CHECK(*wait > before);
+            before = *wait;
+            ++attempts;
+        }
+        CHECK(attempts == 9);
+        CHECK_FALSE(back_off_ms(0).has_value());
+    }
+
+    TEST_CASE("the end of a job makes one message for each webhook that wants it") {
+        test::TestStore s;
+        SqliteWebhooks webhooks(s.database);
+        webhooks.add(webhook("all", "key", "job.succeeded job.failed job.canceled"));
+        webhooks.add(webhook("failures", "key", "job.failed"));
+        webhooks.add(webhook("others", "another key", "job.succeeded"));
+        REQUIRE(s.add(test::new_job("A", "key")) == Admission::queued);
+        REQUIRE(s.add(test::new_job("B", "key")) == Admission::queued);
+        CHECK(webhooks.deliveries("all").empty());
+        CHECK(s.store.finish(s.store.claim(60'000)->lease, test::success()));
+        CHECK(s.store.cancel("key", "B") == JobState::canceled);
+        const auto sent = webhooks.deliveries("all");
+        REQUIRE(sent.size() == 2);
+        CHECK(sent[0].event == "job.canceled");
+        CHECK(sent[1].event == "job.succeeded");
+        CHECK(sent[1].payload.find("\"id\":\"A\"") != std::string::npos);
+        CHECK(webhooks.deliveries("failures").empty());
+        CHECK(webhooks.deliveries("others").empty());
+        CHECK_FALSE(webhooks.remove("another key", "all"));
+        CHECK(webhooks.remove("key", "all"));
+        CHECK(webhooks.deliveries("all").empty());
+        CHECK_FALSE(webhooks.claim(1000).has_value());
+    }
+
+    TEST_CASE("what fails is tried again later, what arrives is not, and 410 ends it") {
+        test::TestStore s;
+        SqliteWebhooks webhooks(s.database);
+        for (const char* id : {"good", "broken", "gone"}) {
+            webhooks.add(webhook(id, "", "job.failed"));
+            webhooks.add_test(id);
+        }
+        std::atomic<int> posts{0};
+        {
+            const WebhookDispatcher dispatcher(webhooks, [&](const DueDelivery& due) {
+                ++posts;
+                const std::string& id = due.webhook.id;
+                return PostOutcome{id == "good" ? 204 : id == "gone" ? 410 : 500, "said"};
+            });
+            while (posts < 3) std::this_thread::yield();
+        }
+        CHECK(posts == 3);
+        CHECK(webhooks.deliveries("good").at(0).delivered);
+        CHECK_FALSE(webhooks.deliveries("good").at(0).next_ms.has_value());
+        const Delivery broken = webhooks.deliveries("broken").at(0);
+        CHECK_FALSE(broken.delivered);
+        CHECK(broken.next_ms.value() > now_ms());
+        CHECK(broken.status == 500);
+        CHECK_FALSE(webhooks.deliveries("gone").at(0).next_ms.has_value());
+    }
+}
+
+}  // namespace lastflat::server
