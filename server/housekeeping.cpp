@@ -9,10 +9,10 @@ constexpr std::chrono::seconds interval{1};
 
 }  // namespace
 
-void recover(JobStore& jobs, const BlobStore& blobs) {
+std::size_t recover(JobStore& jobs, const BlobStore& blobs) {
     const Swept swept = jobs.sweep(true, worker_lost_problem());
     drop_unneeded(blobs, jobs, blobs.all());
-    log_event("recovered", {{"jobs", swept.changed.size()}});
+    return swept.changed.size();
 }
 
 Housekeeping::Housekeeping(Service& service)

@@ -11,7 +11,8 @@ namespace lastflat::server {
 
 /// Before anything runs: jobs that were running when the process ended go back to the queue (this
 /// process holds the data, so nobody works on them), and blobs that no row knows are removed.
-void recover(JobStore& jobs, const BlobStore& blobs);
+/// Returns how many jobs there were.
+std::size_t recover(JobStore& jobs, const BlobStore& blobs);
 
 /// A thread that ends lost leases and overdue jobs, and forgets what is past its time, once a
 /// second.

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
 
 #include "server/jobs/estimate.h"
 #include "server/jobs/job_watch.h"
+#include "server/jobs/runners.h"
 #include "server/jobs/worker_pool.h"
 #include "server/observe/metrics.h"
 #include "server/settings.h"
@@ -15,9 +15,6 @@
 #include "server/stores/key_store.h"
 
 namespace lastflat::server {
-
-/// Runs the stages before the flattening in a process of its own.
-using Validator = std::function<ProcessEnd(const std::string& model, const std::string& request)>;
 
 struct Service {
     const Settings& settings;

@@ -1,0 +1,20 @@
+// Jobs and validations as worker processes, under the limits that the operator has set.
+#pragma once
+
+#include "server/jobs/worker_pool.h"
+#include "server/settings.h"
+
+namespace lastflat::server {
+
+/// `blobs` must outlive the runner.
+[[nodiscard]] JobRunner job_runner(const Settings& settings, const BlobStore& blobs);
+
+/// Runs the stages before the flattening in a process of its own.
+using Validator = std::function<ProcessEnd(const std::string& model, const std::string& request)>;
+
+/// Few at once, others wait: each may use as much as a job. `work`: a folder for the models.
+[[nodiscard]] Validator validator(const Settings& settings, const std::filesystem::path& work);
+
+[[nodiscard]] int hardware_threads();
+
+}  // namespace lastflat::server
