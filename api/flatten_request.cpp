@@ -242,6 +242,8 @@ JsonSubmission json_submission_from_json(std::string_view text, const RequestLim
     if (const auto request = reader.find("request")) {
         submission.request = read_request(*request, limits);
         submission.request_text = request->value.dump();
+        if (submission.request_text.size() > limits.bytes)
+            request->fail("has more than " + std::to_string(limits.bytes) + " bytes");
     }
     reader.finish();
     return submission;

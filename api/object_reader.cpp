@@ -7,12 +7,24 @@ namespace lastflat::api {
 
 using Json = nlohmann::json;
 
+namespace {
+
+/// A value takes sixteen bytes of memory and may take two of text.
+constexpr std::size_t most_values = 4'000'000;
+
+}  // namespace
+
 Json parse_json(std::string_view text, int depth) {
     std::vector<std::set<std::string>> names;  // of the objects that are open
+    std::size_t values = 0;
     const auto watch = [&](int level, Json::parse_event_t event, Json& parsed) {
         if (level > depth) {
             throw InvalidRequest(
                 "", "the JSON is nested deeper than " + std::to_string(depth) + " levels");
+        }
+        if (event == Json::parse_event_t::value && ++values > most_values) {
+            throw InvalidRequest(
+                "", "the JSON has more than " + std::to_string(most_values) + " values");
         }
         if (event == Json::parse_event_t::object_start) names.emplace_back();
         if (event == Json::parse_event_t::object_end) names.pop_back();

@@ -22,7 +22,7 @@ private:
     std::string pointer_;
 };
 
-/// A document of at most `depth` levels, without repeated names.
+/// A document of at most `depth` levels and 4 million values, without repeated names.
 /// Throws: InvalidRequest saying where reading stopped.
 [[nodiscard]] nlohmann::json parse_json(std::string_view text, int depth);
 

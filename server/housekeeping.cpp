@@ -1,11 +1,14 @@
 #include "server/housekeeping.h"
 
+#include <malloc.h>
+
 #include "server/observe/log.h"
 
 namespace lastflat::server {
 namespace {
 
 constexpr std::chrono::seconds interval{1};
+constexpr std::size_t sweeps_between_trims = 30;
 
 }  // namespace
 
@@ -31,6 +34,8 @@ Housekeeping::~Housekeeping() {
 }
 
 void Housekeeping::sweep() {
+    // What a burst of large bodies left behind goes back to the system.
+    if (++sweeps_ % sweeps_between_trims == 0) malloc_trim(0);
     try {
         const Swept swept = service_.jobs.sweep(false, worker_lost_problem());
         for (const std::string& id : swept.changed) {
@@ -39,7 +44,7 @@ void Housekeeping::sweep() {
         }
         drop_unneeded(service_.blobs, service_.jobs, swept.blobs);
         if (!swept.changed.empty()) service_.workers.wake();
-    } catch (const StoreError& error) {
+    } catch (const std::exception& error) {
         service_.metrics.count("lastflat_store_failures_total");
         log_event("store_failed", {{"why", error.what()}});
     }

@@ -28,6 +28,7 @@ private:
     void sweep();
 
     Service& service_;
+    std::size_t sweeps_ = 0;
     std::mutex mutex_;
     std::condition_variable ended_;
     bool ending_ = false;

@@ -1,5 +1,7 @@
 #include "server/operator_commands.h"
 
+#include <sys/stat.h>
+
 #include <filesystem>
 #include <iostream>
 
@@ -73,7 +75,9 @@ private:
         try {
             (void)blobs_.read(digest);
         } catch (const std::exception& error) {
-            complain("job " + job.id + ", its " + what + ": " + error.what());
+            // The service may have gone on meanwhile: then nothing needs the blob any more.
+            if (store_.needs_blob(digest))
+                complain("job " + job.id + ", its " + what + ": " + error.what());
         }
     }
 
@@ -100,6 +104,7 @@ private:
 }  // namespace
 
 int add_key_command(const std::string& data, const std::string& name) {
+    umask(S_IRWXG | S_IRWXO);
     fs::create_directories(data);
     SqliteDatabase database(database_of(data));
     std::cout << SqliteKeys(database).add(name) << std::endl;

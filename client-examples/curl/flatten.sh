@@ -4,12 +4,13 @@
 #   flatten.sh LAST [REQUEST]      LAST: OBJ, glTF or GLB; REQUEST: the constraint JSON
 #
 # LASTFLAT_URL  the server; default http://127.0.0.1:8080
+# LASTFLAT_KEY  the API key, if the server asks for one
 # OUT           the folder for result.json, pattern.svg and flat.glb; default: a folder with the last's name, here
 #
 # Ends with 0; with 2 if the last or the request is at fault; with 1 if anything else is. Needs curl and jq.
 set -euo pipefail
 
-[[ $# -ge 1 && $# -le 2 ]] || { sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+[[ $# -ge 1 && $# -le 2 ]] || { sed -n '2,10s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 last=$1 request=${2:-}
 url=${LASTFLAT_URL:-http://127.0.0.1:8080}
 name=$(basename -- "$last")
@@ -19,6 +20,9 @@ for file in "$last" ${request:+"$request"}; do
 done
 temporary=$(mktemp -d)
 trap 'rm -rf -- "$temporary"' EXIT
+
+# In a file, so that the key is in no list of processes.
+echo "${LASTFLAT_KEY:+Authorization: Bearer $LASTFLAT_KEY}" > "$temporary/key"
 
 # A number to so many places; what rounds to nothing has no sign.
 places() {  # places, number
@@ -38,7 +42,7 @@ fail() {  # status, file
 
 # Runs curl; the body goes to a file, the headers to another, the status to $status.
 ask() {  # body file, curl's arguments...
-    status=$(curl -sS -g -o "$1" -D "$temporary/headers" -w '%{http_code}' "${@:2}") || exit 1
+    status=$(curl -sS -g -o "$1" -D "$temporary/headers" -H "@$temporary/key" -w '%{http_code}' "${@:2}") || exit 1
 }
 
 retry_after() {
@@ -53,25 +57,23 @@ if [[ $request ]]; then
     parts+=(-F "request=@$temporary/request;filename=request.json;type=application/json")
 fi
 
+once=$$-$EPOCHREALTIME-$RANDOM  # makes it one job, however often it is sent
 for (( attempt = 1; ; attempt++ )); do
-    ask "$temporary/job" "${parts[@]}" "$url/v1/jobs"
+    ask "$temporary/job" -H "Idempotency-Key: $once" "${parts[@]}" "$url/v1/jobs"
     [[ $status == 503 && $attempt -lt 5 ]] || break  # the queue is full: come back when told
     sleep "$(retry_after)"
 done
 [[ $status == 202 ]] || fail "$status" "$temporary/job"
 job=$url$(jq -r .links.self "$temporary/job")
 
-# Most jobs end within the second: quick looks first, then as Retry-After says.
-for (( look = 1; ; look++ )); do
+while :; do
     case $(jq -r .state "$temporary/job") in
         succeeded) break ;;
         failed) jq .error "$temporary/job" > "$temporary/problem"; fail 422 "$temporary/problem" ;;
         canceled) echo "flatten.sh: the job was canceled" >&2; exit 1 ;;
     esac
-    pause=$(retry_after)
-    (( look > 10 )) || pause=0.1
-    sleep "${pause:-1}"
-    ask "$temporary/job" "$job"
+    sleep 0.1  # answered at once when all places to wait are taken
+    ask "$temporary/job" -H 'Prefer: wait=30' "$job"
     [[ $status == 200 ]] || fail "$status" "$temporary/job"
 done
 

@@ -4,6 +4,7 @@
     flatten.py LAST [REQUEST]      LAST: OBJ, glTF or GLB; REQUEST: the constraint JSON
 
 LASTFLAT_URL  the server; default http://127.0.0.1:8080
+LASTFLAT_KEY  the API key, if the server asks for one
 OUT           the folder for result.json, pattern.svg and flat.glb; default: a folder with the last's name, here
 
 Ends with 0; with 2 if the last or the request is at fault; with 1 if anything else is. Only the standard library.
@@ -20,6 +21,8 @@ import uuid
 
 SERVER = os.environ.get("LASTFLAT_URL", "http://127.0.0.1:8080").rstrip("/")
 
+KEY = {"Authorization": "Bearer " + os.environ["LASTFLAT_KEY"]} if os.environ.get("LASTFLAT_KEY") else {}
+
 
 class Problem(Exception):
     """What the server says is wrong (RFC 9457)."""
@@ -31,12 +34,12 @@ class Problem(Exception):
 
 
 def ask(path, body=None, headers=None):
-    """The answer's headers and bytes; a full queue is waited for."""
+    """The answer's bytes; a full queue is waited for."""
     for attempt in range(5):
         try:
-            request = urllib.request.Request(SERVER + path, data=body, headers=headers or {})
+            request = urllib.request.Request(SERVER + path, data=body, headers={**KEY, **(headers or {})})
             with urllib.request.urlopen(request, timeout=120) as answer:
-                return answer.headers, answer.read()
+                return answer.read()
         except urllib.error.HTTPError as error:
             text = error.read()
             if error.code == 503 and attempt < 4:
@@ -56,14 +59,11 @@ def form(parts):
     return f"multipart/form-data; boundary={boundary}", b"".join(lines) + f"--{boundary}--\r\n".encode()
 
 
-def finished(headers, job):
-    """Waits for the job's end: quick looks first (most take less than a second), then as Retry-After says."""
-    look = 0
+def finished(job):
+    """Waits for the job's end: the server answers when it has come, at once when all places to wait are taken."""
     while job["state"] not in ("succeeded", "failed", "canceled"):
-        time.sleep(0.1 if look < 10 else int(headers.get("Retry-After", 1)))
-        look += 1
-        headers, text = ask(job["links"]["self"])
-        job = json.loads(text)
+        time.sleep(0.1)
+        job = json.loads(ask(job["links"]["self"], headers={"Prefer": "wait=30"}))
     return job
 
 
@@ -77,15 +77,15 @@ def main(last, request=None):
     if request:
         parts.append(("request", "application/json", pathlib.Path(request).read_bytes()))
     content_type, body = form(parts)
-    headers, text = ask("/v1/jobs", body, {"Content-Type": content_type})
-    job = finished(headers, json.loads(text))
+    once = uuid.uuid4().hex  # makes it one job, however often it is sent
+    job = finished(json.loads(ask("/v1/jobs", body, {"Content-Type": content_type, "Idempotency-Key": once})))
     if job["state"] == "failed":
         raise Problem(422, job["error"])
     if job["state"] == "canceled":
         sys.exit("flatten.py: the job was canceled")
 
     folder = pathlib.Path(os.environ.get("OUT") or pathlib.Path(last).stem)
-    files = {name: ask(f"{job['links']['result']}?format={kind}")[1]
+    files = {name: ask(f"{job['links']['result']}?format={kind}")
              for name, kind in (("result.json", "json"), ("pattern.svg", "svg"), ("flat.glb", "glb"))}
     folder.mkdir(parents=True, exist_ok=True)
     for name, content in files.items():

@@ -270,6 +270,7 @@ Head read_head(const RequestLine& line, const std::vector<std::string_view>& lin
         parse_query(line.target.substr(std::min(raw_path.size() + 1, line.target.size())));
     find_route(head, routes, raw_path);
     check_body(head);
+    head.takes_chunks = !line.is_http_1_0;
     head.keeps_alive = !line.is_http_1_0 && !has_item(head.request.header("connection"), "close");
     head.awaits_continue =
         head.has_body() && head.request.headers.contains("expect") && !line.is_http_1_0;

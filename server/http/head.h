@@ -21,6 +21,7 @@ struct Head {
     bool chunked = false;
     std::uint64_t content_length = 0;
     bool keeps_alive = false;      ///< the client may send another request afterwards
+    bool takes_chunks = false;     ///< HTTP/1.1: the answer's length may be left open
     bool awaits_continue = false;  ///< the client sends the body after a "100 Continue"
 
     [[nodiscard]] bool has_body() const { return chunked || content_length > 0; }

@@ -163,6 +163,8 @@ Response Server::Impl::handle(Head& head, const HttpLibrary::ReadBody& read_body
         if (read_body) head.request.body = parts_of(head, read_body(), limits_.body_parts);
         Response response = head.route->handler(head.request);
         head.request.body.clear();
+        if (response.stream && !head.takes_chunks)
+            throw Refusal(505, "version_not_supported", "A stream needs HTTP/1.1.");
         return response;
     } catch (const Refusal& refusal) {
         return answer_to(refusal, hooks_.problem);

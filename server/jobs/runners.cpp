@@ -12,6 +12,7 @@ namespace lastflat::server {
 namespace {
 
 constexpr int most_validations = 2;
+constexpr std::chrono::milliseconds look{100};
 
 ProcessLimits process_limits(const Settings& settings) {
     ProcessLimits limits;
@@ -40,25 +41,31 @@ JobRunner job_runner(const Settings& settings, const BlobStore& blobs) {
         };
 }
 
-Validator validator(const Settings& settings, const std::filesystem::path& work) {
+Validator validator(const Settings& settings, const std::filesystem::path& work,
+                    std::function<bool()> ends) {
     const auto slots = std::make_shared<std::counting_semaphore<>>(most_validations);
-    return [slots, work, limits = process_limits(settings)](const std::string& model,
-                                                            const std::string& request) {
-        slots->acquire();
-        const std::unique_ptr<void, std::function<void(void*)>> at_end(
-            slots.get(), [&](void*) { slots->release(); });
+    return [slots, work, ends = std::move(ends), limits = process_limits(settings)](
+               const std::string& model, const std::string& request) {
+        ProcessEnd end;
+        end.kind = ProcessEnd::Kind::stopped;
+        while (!slots->try_acquire_for(look)) {
+            if (ends()) return end;
+        }
+        const std::filesystem::path file = work / ("validate-" + new_job_id());
+        const auto clear = [&](void*) {
+            unlink(file.c_str());
+            slots->release();
+        };
+        const std::unique_ptr<void, decltype(clear)> at_end(slots.get(), clear);
+        write_durably(file, model);
         WorkOrder order;
         order.validate = true;
         order.digest = sha256(model);
-        order.model = work / ("validate-" + new_job_id());
+        order.model = file;
         order.request = request;
         order.threads = hardware_threads();
-        write_durably(order.model, model);
-        const std::string file = order.model;
-        ProcessEnd end = run_worker_process(
-            std::move(order), limits, {[](const std::string&, double) {}, [] { return false; }});
-        unlink(file.c_str());
-        return end;
+        return run_worker_process(std::move(order), limits,
+                                  {[](const std::string&, double) {}, ends});
     };
 }
 

@@ -13,7 +13,9 @@ namespace lastflat::server {
 using Validator = std::function<ProcessEnd(const std::string& model, const std::string& request)>;
 
 /// Few at once, others wait: each may use as much as a job. `work`: a folder for the models.
-[[nodiscard]] Validator validator(const Settings& settings, const std::filesystem::path& work);
+/// Once `ends` says so they end at once, as stopped.
+[[nodiscard]] Validator validator(const Settings& settings, const std::filesystem::path& work,
+                                  std::function<bool()> ends);
 
 [[nodiscard]] int hardware_threads();
 

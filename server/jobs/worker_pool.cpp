@@ -47,9 +47,19 @@ std::optional<JobOutcome> outcome_of(const Claim& claim, ProcessEnd& end) {
             outcome.error = worker_lost_problem();
             return outcome;
         case ProcessEnd::Kind::retry:
+            if (claim.retries < most_retries) return std::nullopt;
+            outcome.error = problem_text(507, "storage_full",
+                                         "there was no room on the disk for the result, for an "
+                                         "hour; post the job again when there is");
+            return outcome;
         case ProcessEnd::Kind::stopped: return std::nullopt;
     }
     return std::nullopt;
+}
+
+Release why_released(ProcessEnd::Kind kind) {
+    if (kind == ProcessEnd::Kind::lost) return Release::lost;
+    return kind == ProcessEnd::Kind::retry ? Release::later : Release::unfinished;
 }
 
 }  // namespace
@@ -76,9 +86,12 @@ WorkerPool::~WorkerPool() {
 }
 
 void WorkerPool::wake() {
-    // Taking the lock orders this after a worker's look at the store, so that no job is missed.
-    { const std::scoped_lock lock(mutex_); }
-    changed_.notify_one();
+    {
+        const std::scoped_lock lock(mutex_);
+        ++wakes_;
+    }
+    // All: threads that wait for something else would take a single call for theirs.
+    changed_.notify_all();
 }
 
 void WorkerPool::cancel(const std::string& id) {
@@ -114,23 +127,35 @@ void WorkerPool::stop(std::chrono::milliseconds grace) {
 void WorkerPool::work() {
     std::unique_lock lock(mutex_);
     while (!draining_) {
-        std::optional<Claim> claim;
-        try {
-            claim = store_.claim(options_.lease_ms);
-        } catch (const StoreError&) {
-            // It shows in the metrics and in every request; here it only means: later.
-        }
+        // The store may be slow: what others want of this pool must not wait for it.
+        const std::uint64_t seen = wakes_;
+        lock.unlock();
+        std::optional<Claim> claim = try_claim();
+        lock.lock();
         if (!claim) {
-            changed_.wait_for(lock, look_again);
+            changed_.wait_for(lock, look_again, [&] { return draining_ || wakes_ != seen; });
             continue;
         }
         running_.emplace(claim->lease.token, Run{claim->lease.id});
         lock.unlock();
         watch_.changed(claim->lease.id);
-        run(*claim);
+        try {
+            run(*claim);
+        } catch (const std::exception& error) {
+            // The lease will end, and the job be begun again.
+            log_({*claim, "lost", error.what(), 0.0, {}});
+        }
         lock.lock();
         running_.erase(claim->lease.token);
         changed_.notify_all();
+    }
+}
+
+std::optional<Claim> WorkerPool::try_claim() {
+    try {
+        return store_.claim(options_.lease_ms);
+    } catch (const std::exception&) {
+        return std::nullopt;  // it shows in every request; here it only means: later
     }
 }
 
@@ -156,7 +181,8 @@ void WorkerPool::run(const Claim& claim) {
     std::string stage = "start";
     RunReport report;
     report.claim = claim;
-    std::int64_t renewed_ms = now_ms();
+    // The first look renews: a cancel may have come before this run was known.
+    std::int64_t renewed_ms = now_ms() - options_.lease_ms / 3;
     const ProcessControl control{[&](const std::string& next, double fraction) {
                                      const auto now = Clock::now();
                                      report.stage_seconds[stage] +=
@@ -206,15 +232,13 @@ std::optional<JobState> WorkerPool::settle(const Claim& claim, ProcessEnd& end,
     const bool kept = persist([&] {
         const auto pin = blobs_.pin();
         if (!outcome) {
-            state = store_.release(claim.lease, end.kind == ProcessEnd::Kind::lost);
+            state = store_.release(claim.lease, why_released(end.kind));
             return;
         }
-        if (!outcome->result.empty() && std::filesystem::exists(file))
-            blobs_.adopt(file, outcome->result);
+        if (!outcome->result.empty()) blobs_.adopt(file, outcome->result);
         state = store_.finish(claim.lease, *outcome);
     });
     if (!kept) return std::nullopt;
-    if (end.kind == ProcessEnd::Kind::retry) pause();
     std::vector<std::string> blobs{claim.model};
     if (outcome && !outcome->result.empty()) blobs.push_back(outcome->result);
     try {
@@ -223,11 +247,6 @@ std::optional<JobState> WorkerPool::settle(const Claim& claim, ProcessEnd& end,
         // They stay until the next start sweeps them.
     }
     return state;
-}
-
-void WorkerPool::pause() {
-    std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, storage_pause, [&] { return stopping_; });
 }
 
 }  // namespace lastflat::server

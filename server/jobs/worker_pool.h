@@ -60,11 +60,11 @@ private:
         bool canceled = false;
     };
     void work();
+    [[nodiscard]] std::optional<Claim> try_claim();
     void run(const Claim& claim);
     [[nodiscard]] bool must_stop(const Claim& claim, std::int64_t& renewed_ms);
     [[nodiscard]] std::optional<JobState> settle(const Claim& claim, ProcessEnd& end,
                                                  const std::filesystem::path& file);
-    void pause();
     /// Tries until the store can; false if the service ends before it could.
     [[nodiscard]] bool persist(const std::function<void()>& change);
 
@@ -77,6 +77,7 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::map<std::int64_t, Run> running_;  ///< by the lease's token
+    std::uint64_t wakes_ = 0;
     bool draining_ = false;
     bool stopping_ = false;
     std::vector<std::thread> threads_;

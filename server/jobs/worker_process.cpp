@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -186,6 +187,8 @@ public:
         end.why = WIFSIGNALED(status) ? std::string("signal ") + ::strsignal(WTERMSIG(status))
                                       : "exit code " + std::to_string(WEXITSTATUS(status));
         if (!worker_.said.empty()) end.why += ": " + worker_.said;
+        if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+            end.kind = ProcessEnd::Kind::timed_out;
         // Nobody but the kernel, short of memory, or an operator ends a worker like that.
         if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) end.kind = ProcessEnd::Kind::lost;
         return end;
@@ -212,6 +215,9 @@ private:
 ProcessEnd run_worker_process(WorkOrder order, const ProcessLimits& limits,
                               const ProcessControl& control) {
     order.memory_mb = limits.memory_mb;
+    // A second line of defence, for when this process is frozen: it looks at no clock then.
+    order.cpu_seconds =
+        static_cast<int>(limits.time / std::chrono::seconds(1) + 1) * std::max(1, order.threads);
     order.parent = ::getpid();
     const auto deadline = Clock::now() + limits.time;
     Worker worker(order, limits.program);

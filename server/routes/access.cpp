@@ -37,7 +37,10 @@ std::optional<http::Response> Access::admit(http::Request& request) {
 std::optional<http::Response> Access::check_key(http::Request& request) {
     const std::string_view header = request.header("authorization");
     if (!keys_.has_keys()) {
-        if (is_this_machine(request.remote_address)) return std::nullopt;
+        // A proxy on this machine says whom it speaks for; that is not this machine.
+        const bool forwarded =
+            request.headers.contains("x-forwarded-for") || request.headers.contains("forwarded");
+        if (is_this_machine(request.remote_address) && !forwarded) return std::nullopt;
         return problem(401, "no_keys",
                        "this service has no API key yet and answers clients on its own machine "
                        "only; its operator makes one with: lastflat keys add NAME");

@@ -48,6 +48,16 @@ http::Response empty_response(int status) {
     return response;
 }
 
+api::Problem store_unavailable() {
+    return {503,
+            "store_unavailable",
+            "",
+            "the service cannot store or read its data now (a full or broken disk?); "
+            "nothing was changed, try again later",
+            std::nullopt,
+            std::nullopt};
+}
+
 http::Response problem_response(const api::Problem& problem) {
     http::Response response = json_response(problem.status, api::to_json(problem));
     response.media_type = "application/problem+json";
@@ -69,12 +79,9 @@ http::Handler guarded(http::Handler handler) {
             return problem_response(problem_of(invalid));
         } catch (const Error& error) {
             return problem_response(problem_of(error));
-        } catch (const StoreError& error) {
-            return problem_response({503, "store_unavailable", "",
-                                     "the service cannot store or read its data now (a full or "
-                                     "broken disk?); nothing was changed, try again later",
-                                     std::nullopt, std::nullopt});
-        } catch (const CorruptBlob& error) {
+        } catch (const StoreError&) {
+            return problem_response(store_unavailable());
+        } catch (const CorruptBlob&) {
             return problem_response(
                 {500, "result_corrupt", "",
                  "the stored bytes have changed on the disk; post the job again", std::nullopt,

@@ -25,6 +25,9 @@ private:
 [[nodiscard]] http::Response json_response(int status, std::string body);
 [[nodiscard]] http::Response empty_response(int status);
 
+/// The store cannot do its work now.
+[[nodiscard]] api::Problem store_unavailable();
+
 /// A problem document as a response; where it helps, with Retry-After.
 [[nodiscard]] http::Response problem_response(const api::Problem& problem);
 

@@ -77,6 +77,7 @@ Response remove(Service& service, const Request& request) {
 }
 
 Response validate(Service& service, const Request& request) {
+    if (service.draining) refuse(503, "draining", "the service is ending; try again later");
     Submission submission = read_submission(request);
     if (!submission.asset.empty()) {
         if (!service.assets.find(request.principal, submission.asset))
@@ -89,6 +90,8 @@ Response validate(Service& service, const Request& request) {
     const ProcessEnd end = service.validate(submission.model, submission.request);
     if (end.kind == ProcessEnd::Kind::timed_out)
         refuse(422, "job_too_slow", "the model took too long to look at; send a coarser one");
+    if (end.kind == ProcessEnd::Kind::stopped)
+        refuse(503, "draining", "the service is ending; try again later");
     if (end.kind != ProcessEnd::Kind::finished)
         refuse(500, "worker_crashed", "the program broke on this model; the service goes on");
     if (end.report.empty()) {

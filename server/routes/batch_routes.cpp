@@ -29,14 +29,10 @@ Json refused(const api::Problem& problem) {
 }
 
 Json submit_one(Service& service, const Request& request, const nlohmann::json& job,
-                std::size_t index, std::string& batch) {
-    Request one = request;
-    one.body.clear();
-    if (const auto key = one.headers.find("idempotency-key"); key != one.headers.end())
-        key->second += "/" + std::to_string(index);
+                std::string& batch) {
     try {
         const Submitted submitted =
-            submit(service, one, read_json_submission(job.dump()), "", batch);
+            submit(service, request, read_json_submission(job.dump()), "", batch);
         if (submitted.repeated) batch = submitted.job.batch;
         return item(submitted.repeated ? 200 : 202, Json::parse(job_json(service, submitted.job)));
     } catch (const Refusal& refusal) {
@@ -45,8 +41,28 @@ Json submit_one(Service& service, const Request& request, const nlohmann::json& 
         return refused(problem_of(invalid));
     } catch (const Error& error) {
         return refused(problem_of(error));
+    } catch (const StoreError&) {
+        return refused(store_unavailable());  // those before it are taken all the same
     }
 }
+
+/// The request without its body, as that of an item: its key, if it has one, is the item's own.
+class ItemRequest {
+public:
+    explicit ItemRequest(const Request& whole) : key_(whole.header("idempotency-key")) {
+        request_.id = whole.id;
+        request_.headers = whole.headers;
+        request_.principal = whole.principal;
+    }
+    const Request& of(std::size_t index) {
+        if (!key_.empty()) request_.headers["idempotency-key"] = key_ + "/" + std::to_string(index);
+        return request_;
+    }
+
+private:
+    Request request_;
+    const std::string key_;
+};
 
 Response post(Service& service, const Request& request) {
     if (request.body.empty() || request.body.front().media_type != "application/json")
@@ -59,8 +75,9 @@ Response post(Service& service, const Request& request) {
     std::string batch = new_job_id();
     Json items = Json::array();
     std::size_t taken = 0;
+    ItemRequest item_request(request);
     for (const api::Field& job : jobs->items(most_jobs)) {
-        items.push_back(submit_one(service, request, job.value, items.size(), batch));
+        items.push_back(submit_one(service, item_request.of(items.size()), job.value, batch));
         taken += items.back().contains("job") ? 1 : 0;
     }
     const std::string self = "/v1/batches/" + batch;

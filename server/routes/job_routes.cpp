@@ -18,6 +18,7 @@ using http::Response;
 using Clock = JobWatch::Clock;
 
 constexpr std::size_t most_listed = 200;
+constexpr std::size_t most_waiting_body = 16u << 20;
 constexpr std::size_t code_bytes = 12;  ///< of a cursor's signature
 
 /// Waits until the job has ended, or differs from what the client has, or the time is over.
@@ -51,9 +52,17 @@ Response finished_response(Service& service, const JobRecord& job) {
     return json_response(200, std::move(text));
 }
 
+std::size_t body_bytes(const Request& request) {
+    std::size_t bytes = 0;
+    for (const http::BodyPart& part : request.body) bytes += part.bytes.size();
+    return bytes;
+}
+
 Response submitted_response(Service& service, const Request& request, Submitted submitted) {
     JobRecord& job = submitted.job;
-    const auto wait = preferred_wait(request);
+    auto wait = preferred_wait(request);
+    // A large body would stay in memory, and in the share that all bodies have, while it waits.
+    if (body_bytes(request) > most_waiting_body) wait.reset();
     if (wait && !is_final(job.state)) job = wait_for(service, request, std::move(job), *wait);
     Response response = wait && is_final(job.state) ? finished_response(service, job)
                                                     : job_response(service, job, 202);
@@ -64,8 +73,8 @@ Response submitted_response(Service& service, const Request& request, Submitted 
 }
 
 Response post(Service& service, const Request& request) {
-    return submitted_response(service, request,
-                              submit(service, request, read_submission(request), "", ""));
+    Submitted submitted = submit(service, request, read_submission(request), "", "");
+    return submitted_response(service, request, std::move(submitted));
 }
 
 Response put(Service& service, const Request& request) {

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <atomic>
+#include <mutex>
+#include <set>
+#include <string>
 
 #include "server/jobs/estimate.h"
 #include "server/jobs/job_watch.h"
@@ -16,6 +19,23 @@
 
 namespace lastflat::server {
 
+/// Idempotency keys of requests that are being taken right now.
+class KeysInFlight {
+public:
+    [[nodiscard]] bool enter(const std::string& key) {
+        const std::scoped_lock lock(mutex_);
+        return keys_.insert(key).second;
+    }
+    void leave(const std::string& key) {
+        const std::scoped_lock lock(mutex_);
+        keys_.erase(key);
+    }
+
+private:
+    std::mutex mutex_;
+    std::set<std::string> keys_;
+};
+
 struct Service {
     const Settings& settings;
     JobStore& jobs;
@@ -28,6 +48,7 @@ struct Service {
     Metrics& metrics;
     Validator validate;
     std::string cursor_secret;
+    KeysInFlight keys_in_flight{};
     std::atomic<bool> draining{false};
 };
 

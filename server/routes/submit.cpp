@@ -1,7 +1,5 @@
 #include "server/routes/submit.h"
 
-#include <set>
-
 #include "server/crypto.h"
 #include "server/duration.h"
 #include "server/routes/job_view.h"
@@ -33,41 +31,22 @@ std::optional<std::int64_t> cancel_time(const http::Request& request) {
     return now_ms() + *after;
 }
 
-/// Keys of requests that are being taken right now: a second one must not overtake the first.
-class KeysInFlight {
-public:
-    bool enter(const std::string& key) {
-        const std::scoped_lock lock(mutex_);
-        return keys_.insert(key).second;
-    }
-    void leave(const std::string& key) {
-        const std::scoped_lock lock(mutex_);
-        keys_.erase(key);
-    }
-
-private:
-    std::mutex mutex_;
-    std::set<std::string> keys_;
-};
-
+/// While one request with a key is being taken, a second one must not overtake it.
 class InFlight {
 public:
-    explicit InFlight(std::string key) : key_(std::move(key)) {
-        if (!key_.empty() && !keys().enter(key_))
+    InFlight(KeysInFlight& keys, std::string key) : keys_(keys), key_(std::move(key)) {
+        if (!key_.empty() && !keys_.enter(key_))
             refuse(409, "key_in_flight",
                    "a request with this Idempotency-Key is being taken right now; ask again");
     }
     ~InFlight() {
-        if (!key_.empty()) keys().leave(key_);
+        if (!key_.empty()) keys_.leave(key_);
     }
     InFlight(const InFlight&) = delete;
     InFlight& operator=(const InFlight&) = delete;
 
 private:
-    static KeysInFlight& keys() {
-        static KeysInFlight keys;
-        return keys;
-    }
+    KeysInFlight& keys_;
     const std::string key_;
 };
 
@@ -120,7 +99,8 @@ Submitted submit(Service& service, const http::Request& request, const Submissio
     job.request = submission.request;
     job.idempotency_key = idempotency_key(request);
     job.cancel_at_ms = cancel_time(request);
-    const InFlight in_flight(job.idempotency_key.empty() ? ""
+    const InFlight in_flight(service.keys_in_flight, job.idempotency_key.empty()
+                                                         ? ""
                                                          : job.owner + " " + job.idempotency_key);
     Admitted admitted;
     {

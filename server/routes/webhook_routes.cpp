@@ -116,7 +116,8 @@ Response deliveries(WebhookStore& webhooks, const Request& request) {
 Response test(WebhookStore& webhooks, const Settings& settings, const Request& request) {
     require_allowed(settings);
     const Webhook webhook = found(webhooks, request);
-    webhooks.add_test(webhook.id);
+    if (!webhooks.add_test(webhook.id))
+        refuse(429, "too_many_messages", "messages to this webhook are waiting already; see them");
     return json_response(202, webhook_json(webhook).dump());
 }
 

@@ -51,14 +51,20 @@ bool BlobStore::holds(const fs::path& path, std::string_view bytes) const {
 std::string BlobStore::put(std::string_view bytes) const {
     const std::string digest = sha256(bytes);
     const fs::path path = path_of(digest);
-    // Compared, not believed: a blob that went bad on the disk is mended here.
-    if (!holds(path, bytes)) write_durably(path, bytes);
+    // Compared, not believed: a blob that went bad on the disk is mended here. One that is there
+    // may have got its name a moment ago, by somebody who has not made it last yet.
+    if (holds(path, bytes))
+        sync_folder(path.parent_path());
+    else
+        write_durably(path, bytes);
     return digest;
 }
 
 void BlobStore::adopt(const fs::path& file, const std::string& digest) const {
     const fs::path path = path_of(digest);
-    if (::rename(file.c_str(), path.c_str()) != 0) {
+    std::error_code unknown;
+    const bool taken_before = !fs::exists(file, unknown) && fs::exists(path, unknown);
+    if (!taken_before && ::rename(file.c_str(), path.c_str()) != 0) {
         throw StoreError("cannot name " + path.string() + ": " + std::strerror(errno));
     }
     sync_folder(path.parent_path());

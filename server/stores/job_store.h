@@ -23,6 +23,7 @@ struct Claim {
     std::uint64_t model_bytes = 0;
     std::int64_t created_ms = 0;
     int attempt = 0;
+    int retries = 0;  ///< how often it was put off
     std::optional<std::int64_t> cancel_at_ms;
 };
 
@@ -36,6 +37,12 @@ struct Admitted {
 struct QueueLimits {
     std::size_t queued = 256;           ///< jobs waiting
     std::size_t queued_of_owner = 256;  ///< of one key
+};
+
+enum class Release {
+    unfinished,  ///< the service ends: the attempt does not count
+    lost,        ///< the worker was lost: the attempt counts
+    later  ///< there was no room to work: it does not count, but others come first for a while
 };
 
 enum class Hold { held, canceling, lost };
@@ -75,6 +82,8 @@ struct Swept {
 };
 
 constexpr int most_attempts = 3;
+/// How often a job is put off for lack of room, and for how long: from 5 s, doubling, up to 5 min.
+constexpr int most_retries = 20;
 
 class JobStore {
 public:
@@ -102,8 +111,8 @@ public:
     /// state then; nothing, and nothing is changed, if the lease was lost.
     [[nodiscard]] virtual std::optional<JobState> finish(const Lease& lease,
                                                          const JobOutcome& outcome) = 0;
-    /// Gives a running job back to the queue; `counts`: this attempt counts. As above.
-    [[nodiscard]] virtual std::optional<JobState> release(const Lease& lease, bool counts) = 0;
+    /// Gives a running job back to the queue. As above.
+    [[nodiscard]] virtual std::optional<JobState> release(const Lease& lease, Release why) = 0;
 
     /// queued becomes canceled, running becomes canceling; other states stay. The state after the
     /// call; nothing if there is no such job.

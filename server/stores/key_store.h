@@ -26,7 +26,7 @@ public:
     [[nodiscard]] virtual std::vector<ApiKey> list() = 0;
     /// The id of the key if it is good.
     [[nodiscard]] virtual std::optional<std::string> check(std::string_view key) = 0;
-    /// Whether there is any key that was not revoked.
+    /// Whether a key was ever made, revoked or not: a service that had keys is never open again.
     [[nodiscard]] virtual bool has_keys() = 0;
     /// 32 random bytes that stay the same from the first call on, in hexadecimal digits.
     [[nodiscard]] virtual std::string secret(const std::string& name) = 0;

@@ -8,7 +8,7 @@ namespace lastflat::server {
 namespace {
 
 constexpr int busy_ms = 10'000;
-constexpr std::size_t most_idle_readers = 16;
+constexpr std::size_t most_idle_readers = 8;
 
 }  // namespace
 
@@ -16,13 +16,17 @@ SqliteConnection::SqliteConnection(const std::filesystem::path& file, bool read_
     : database_(file.string(),
                 read_only ? SQLite::OPEN_READONLY : SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
                 busy_ms) {
-    if (read_only) return;
+    // Many readers, each of a few rows: a cache of their own would only take memory.
+    if (read_only) {
+        database_.exec("PRAGMA cache_size=-256");
+        return;
+    }
     database_.exec("PRAGMA journal_mode=WAL");
     database_.exec("PRAGMA synchronous=FULL");
     database_.exec("PRAGMA journal_size_limit=67108864");
 }
 
-SQLite::Statement& SqliteConnection::prepared(const char* sql) {
+SQLite::Statement& SqliteConnection::prepared(const std::string& sql) {
     auto& statement = statements_[sql];
     if (!statement) statement = std::make_unique<SQLite::Statement>(database_, sql);
     return *statement;

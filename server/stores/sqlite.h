@@ -75,13 +75,13 @@ private:
 class SqliteConnection {
 public:
     SqliteConnection(const std::filesystem::path& file, bool read_only);
-    /// `sql` must outlive the connection: its address names the statement.
-    [[nodiscard]] SQLite::Statement& prepared(const char* sql);
+    /// Prepared at the first call with this text.
+    [[nodiscard]] SQLite::Statement& prepared(const std::string& sql);
     [[nodiscard]] SQLite::Database& database() { return database_; }
 
 private:
     SQLite::Database database_;
-    std::unordered_map<const char*, std::unique_ptr<SQLite::Statement>> statements_;
+    std::unordered_map<std::string, std::unique_ptr<SQLite::Statement>> statements_;
 };
 
 /// Told how long a transaction took, in seconds; its waiting for others included.

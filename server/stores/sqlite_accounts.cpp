@@ -84,7 +84,7 @@ std::optional<std::string> SqliteKeys::check(std::string_view key) {
 
 bool SqliteKeys::has_keys() {
     return database_.read([](SqliteConnection& connection) {
-        Query query(connection.prepared("SELECT 1 FROM keys WHERE revoked_ms IS NULL LIMIT 1"));
+        Query query(connection.prepared("SELECT 1 FROM keys LIMIT 1"));
         return query.next();
     });
 }

@@ -9,11 +9,18 @@ namespace {
 
 const std::string select_record = "SELECT " + std::string(record_columns) + " FROM jobs ";
 const std::string select_one = select_record + "WHERE id = ?1 AND (owner = ?2 OR ?2 = '')";
-const std::string select_list =
-    select_record +
-    "WHERE (owner = ?1 OR ?1 = '') AND (?2 IS NULL OR state = ?2) AND (?3 IS NULL OR tag = ?3) "
-    "AND (?4 IS NULL OR batch = ?4) AND (?5 IS NULL OR created_ms > ?5) "
-    "AND (?6 IS NULL OR seq < ?6) ORDER BY seq DESC LIMIT ?7";
+/// Only the conditions that are asked for: an index serves what the statement says, not what it
+/// might have said.
+std::string select_list(const std::string& owner, const JobFilter& filter) {
+    std::string sql = select_record + "WHERE ?7 > 0";
+    if (!owner.empty()) sql += " AND owner = ?1";
+    if (filter.state) sql += " AND state = ?2";
+    if (filter.tag) sql += " AND tag = ?3 AND tag <> ''";
+    if (filter.batch) sql += " AND batch = ?4 AND batch <> ''";
+    if (filter.created_after_ms) sql += " AND created_ms > ?5";
+    if (filter.before) sql += " AND seq < ?6";
+    return sql + " ORDER BY seq DESC LIMIT ?7";
+}
 
 std::size_t place_in_queue(SqliteConnection& connection, std::int64_t seq) {
     Query query(
@@ -25,7 +32,7 @@ std::size_t place_in_queue(SqliteConnection& connection, std::int64_t seq) {
 
 std::optional<JobRecord> SqliteStore::find(const std::string& owner, const std::string& id) {
     return database_.read([&](SqliteConnection& connection) -> std::optional<JobRecord> {
-        Query query(connection.prepared(select_one.c_str()));
+        Query query(connection.prepared(select_one));
         if (!query.bind(id, owner).next()) return std::nullopt;
         JobRecord job = record_of(query, retention_);
         if (job.state == JobState::queued)
@@ -46,7 +53,7 @@ JobList SqliteStore::list(const std::string& owner, const JobFilter& filter) {
     return database_.read([&](SqliteConnection& connection) {
         std::optional<std::string> state;
         if (filter.state) state = name(*filter.state);
-        Query query(connection.prepared(select_list.c_str()));
+        Query query(connection.prepared(select_list(owner, filter)));
         query.bind(owner, state, filter.tag, filter.batch, filter.created_after_ms, filter.before,
                    static_cast<std::int64_t>(filter.limit + 1));
         JobList list;

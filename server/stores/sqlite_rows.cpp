@@ -69,15 +69,18 @@ std::optional<JobRow> leased_row(SqliteConnection& connection, const Lease& leas
     return row_of(query);
 }
 
-void add_delivery(SqliteConnection& connection, const std::string& webhook,
-                  const std::string& event, const nlohmann::ordered_json& data) {
+bool add_delivery(SqliteConnection& connection, const std::string& webhook,
+                  const std::string& event, const nlohmann::ordered_json& data, int most_pending) {
     const std::int64_t now = now_ms();
     const nlohmann::ordered_json payload{
         {"type", event}, {"timestamp", api::rfc3339(now)}, {"data", data}};
-    Query(connection.prepared("INSERT INTO deliveries (id, webhook, event, payload, created_ms, "
-                              "next_ms) VALUES (?, ?, ?, ?, ?, ?)"))
-        .bind("msg_" + new_job_id(), webhook, event, payload.dump(), now, now)
-        .run();
+    return Query(connection.prepared(
+                     "INSERT INTO deliveries (id, webhook, event, payload, created_ms, next_ms) "
+                     "SELECT ?1, ?2, ?3, ?4, ?5, ?5 FROM webhooks WHERE id = ?2 AND "
+                     "(SELECT count(*) FROM deliveries WHERE webhook = ?2 AND "
+                     "next_ms IS NOT NULL) < ?6"))
+               .bind("msg_" + new_job_id(), webhook, event, payload.dump(), now, most_pending)
+               .run() > 0;
 }
 
 void note_change(SqliteConnection& connection, const JobRow& row) {
@@ -102,7 +105,7 @@ void tell_webhooks(SqliteConnection& connection, const JobRow& row) {
     for (const std::string& webhook : webhooks) {
         nlohmann::ordered_json data{{"id", row.id}, {"state", name(row.state)}};
         if (!tag.empty()) data["tag"] = tag;
-        add_delivery(connection, webhook, event, data);
+        (void)add_delivery(connection, webhook, event, data, most_pending_messages);
     }
 }
 

@@ -36,9 +36,14 @@ void change_state(SqliteConnection& connection, JobRow& row, JobState to,
 /// A new job's first state.
 void note_change(SqliteConnection& connection, const JobRow& row);
 
-/// A message to a webhook, to be sent at once.
-void add_delivery(SqliteConnection& connection, const std::string& webhook,
-                  const std::string& event, const nlohmann::ordered_json& data);
+/// Messages of one webhook that may wait; what comes beyond is dropped.
+inline constexpr int most_pending_messages = 1000;
+
+/// A message to a webhook, to be sent at once. False: there is no such webhook any more, or too
+/// many of its messages wait.
+[[nodiscard]] bool add_delivery(SqliteConnection& connection, const std::string& webhook,
+                                const std::string& event, const nlohmann::ordered_json& data,
+                                int most_pending);
 
 /// Forgets the job's row and all that hangs on it.
 void erase_row(SqliteConnection& connection, const JobRow& row);

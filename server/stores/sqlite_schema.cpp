@@ -21,7 +21,6 @@ CREATE TABLE jobs (
     state          TEXT NOT NULL CHECK (state IN ('queued', 'running', 'canceling', 'succeeded',
                                                   'failed', 'canceled')),
     reason         TEXT NOT NULL DEFAULT '',
-    request        TEXT NOT NULL,
     model          TEXT NOT NULL,
     model_bytes    INTEGER NOT NULL,
     fingerprint    TEXT NOT NULL,
@@ -35,14 +34,20 @@ CREATE TABLE jobs (
     revision       INTEGER NOT NULL DEFAULT 1,
     error          TEXT NOT NULL DEFAULT '',
     result         TEXT NOT NULL DEFAULT '',
-    parts          TEXT NOT NULL DEFAULT ''
+    parts          TEXT NOT NULL DEFAULT '',
+    retries        INTEGER NOT NULL DEFAULT 0,
+    not_before_ms  INTEGER NOT NULL DEFAULT 0,
+    request        TEXT NOT NULL  -- last: it may be long, and what follows a long column is slow
 );
 CREATE INDEX jobs_by_state ON jobs (state, seq);
+CREATE INDEX jobs_by_owner_state ON jobs (state, owner);
 CREATE INDEX jobs_by_owner ON jobs (owner, seq);
+CREATE INDEX jobs_by_tag ON jobs (tag, seq) WHERE tag <> '';
 CREATE INDEX jobs_by_batch ON jobs (batch, seq) WHERE batch <> '';
 CREATE INDEX jobs_by_model ON jobs (model);
 CREATE INDEX jobs_by_result ON jobs (result) WHERE result <> '';
 CREATE INDEX jobs_by_end ON jobs (finished_ms) WHERE finished_ms IS NOT NULL;
+CREATE INDEX jobs_with_result ON jobs (finished_ms) WHERE result <> '';
 CREATE INDEX jobs_by_deadline ON jobs (cancel_at_ms) WHERE finished_ms IS NULL;
 
 -- Every state that a job has had.
@@ -70,6 +75,7 @@ CREATE TABLE expired (
     owner TEXT NOT NULL,
     at_ms INTEGER NOT NULL
 ) WITHOUT ROWID;
+CREATE INDEX expired_by_time ON expired (at_ms);
 
 CREATE TABLE assets (
     owner      TEXT NOT NULL,

@@ -10,6 +10,8 @@ namespace lastflat::server {
 namespace {
 
 constexpr std::int64_t expired_memory_ms = 30 * 24 * 3600'000LL;
+/// Longer than a message is tried.
+constexpr std::int64_t message_memory_ms = 3 * 24 * 3600'000LL;
 
 std::int64_t random_token() {
     const std::string bytes = random_bytes(8);
@@ -86,9 +88,9 @@ void end_lost_leases(SqliteConnection& connection, bool all, const std::string& 
 }
 
 void end_overdue(SqliteConnection& connection, Swept& swept) {
-    Query overdue(
-        connection.prepared("SELECT id FROM jobs WHERE finished_ms IS NULL AND "
-                            "cancel_at_ms <= ? AND state IN ('queued', 'running')"));
+    Query overdue(connection.prepared(
+        "SELECT id FROM jobs INDEXED BY jobs_by_deadline WHERE finished_ms IS NULL AND "
+        "cancel_at_ms <= ? AND state IN ('queued', 'running')"));
     for (const std::string& id : ids_of(overdue.bind(now_ms()))) {
         JobRow row = find_row(connection, "", id).value();
         const bool waits = row.state == JobState::queued;
@@ -99,13 +101,14 @@ void end_overdue(SqliteConnection& connection, Swept& swept) {
 }
 
 void forget_expired(SqliteConnection& connection, const Retention& retention, Swept& swept) {
-    Query results(connection.prepared(
-        "SELECT result FROM jobs WHERE finished_ms <= ? AND result <> '' LIMIT 1000"));
+    Query results(
+        connection.prepared("SELECT result FROM jobs INDEXED BY jobs_with_result "
+                            "WHERE finished_ms <= ? AND result <> '' LIMIT 1000"));
     results.bind(now_ms() - retention.result_ms);
     for (const std::string& blob : ids_of(results)) {
         Query(
             connection.prepared("UPDATE jobs SET result = '', parts = '', revision = revision + 1 "
-                                "WHERE result = ?"))
+                                "WHERE result = ? AND result <> ''"))
             .bind(blob)
             .run();
         swept.blobs.push_back(blob);
@@ -120,6 +123,10 @@ void forget_expired(SqliteConnection& connection, const Retention& retention, Sw
         if (!row.result.empty()) swept.blobs.push_back(row.result);
         erase_row(connection, row);
     }
+    Query(connection.prepared("DELETE FROM deliveries WHERE seq IN (SELECT seq FROM deliveries "
+                              "ORDER BY seq LIMIT 200) AND created_ms <= ?"))
+        .bind(now_ms() - message_memory_ms)
+        .run();
     Query(connection.prepared("DELETE FROM expired WHERE at_ms <= ?"))
         .bind(now_ms() - expired_memory_ms)
         .run();
@@ -153,8 +160,8 @@ std::optional<Claim> SqliteStore::claim(std::int64_t lease_ms) {
     return database_.write([&](SqliteConnection& connection) -> std::optional<Claim> {
         Query next(
             connection.prepared("SELECT id FROM jobs WHERE state = 'queued' "
-                                "ORDER BY seq LIMIT 1"));
-        if (!next.next()) return std::nullopt;
+                                "AND not_before_ms <= ? ORDER BY seq LIMIT 1"));
+        if (!next.bind(now_ms()).next()) return std::nullopt;
         JobRow row = find_row(connection, "", next.text(0)).value();
         ++row.attempt;
         change_state(connection, row, JobState::running);
@@ -163,13 +170,14 @@ std::optional<Claim> SqliteStore::claim(std::int64_t lease_ms) {
                   "UPDATE jobs SET lease_token = ?, lease_until_ms = ? WHERE seq = ?"))
             .bind(token, now_ms() + lease_ms, row.seq)
             .run();
-        Query job(
-            connection.prepared("SELECT owner, tag, model, request, model_bytes, created_ms, "
-                                "cancel_at_ms FROM jobs WHERE seq = ?"));
+        Query job(connection.prepared(
+            "SELECT owner, tag, model, request, model_bytes, created_ms, retries, "
+            "cancel_at_ms FROM jobs WHERE seq = ?"));
         if (!job.bind(row.seq).next()) return std::nullopt;
-        return Claim{{row.id, token}, job.text(0), job.text(1),
-                     job.text(2),     job.text(3), static_cast<std::uint64_t>(job.number(4)),
-                     job.number(5),   row.attempt, job.maybe_number(6)};
+        return Claim{{row.id, token},    job.text(0), job.text(1),
+                     job.text(2),        job.text(3), static_cast<std::uint64_t>(job.number(4)),
+                     job.number(5),      row.attempt, static_cast<int>(job.number(6)),
+                     job.maybe_number(7)};
     });
 }
 
@@ -202,7 +210,7 @@ std::optional<JobState> SqliteStore::finish(const Lease& lease, const JobOutcome
     });
 }
 
-std::optional<JobState> SqliteStore::release(const Lease& lease, bool counts) {
+std::optional<JobState> SqliteStore::release(const Lease& lease, Release why) {
     return database_.write([&](SqliteConnection& connection) -> std::optional<JobState> {
         auto row = leased_row(connection, lease);
         if (!row) return std::nullopt;
@@ -210,8 +218,14 @@ std::optional<JobState> SqliteStore::release(const Lease& lease, bool counts) {
             change_state(connection, *row, JobState::canceled);
             return row->state;
         }
-        if (!counts) --row->attempt;
+        if (why != Release::lost) --row->attempt;
         change_state(connection, *row, JobState::queued);
+        if (why == Release::later) {
+            Query(connection.prepared("UPDATE jobs SET retries = retries + 1, not_before_ms = ?1 + "
+                                      "min(5000 << min(retries, 10), 300000) WHERE seq = ?2"))
+                .bind(now_ms(), row->seq)
+                .run();
+        }
         return row->state;
     });
 }

@@ -24,7 +24,7 @@ public:
     [[nodiscard]] Hold renew(const Lease& lease, std::int64_t lease_ms) override;
     [[nodiscard]] std::optional<JobState> finish(const Lease& lease,
                                                  const JobOutcome& outcome) override;
-    [[nodiscard]] std::optional<JobState> release(const Lease& lease, bool counts) override;
+    [[nodiscard]] std::optional<JobState> release(const Lease& lease, Release why) override;
     [[nodiscard]] std::optional<JobState> cancel(const std::string& owner,
                                                  const std::string& id) override;
     [[nodiscard]] std::optional<std::vector<std::string>> remove(const std::string& owner,

@@ -6,7 +6,7 @@
 namespace lastflat::server {
 namespace {
 
-constexpr int most_listed = 100;
+constexpr int most_listed = 100, most_pending_tests = 10;
 
 Webhook webhook_of(const Query& query) {
     return {query.text(0), query.text(1), query.text(2),
@@ -84,9 +84,9 @@ std::vector<Delivery> SqliteWebhooks::deliveries(const std::string& id) {
     });
 }
 
-void SqliteWebhooks::add_test(const std::string& id) {
-    database_.write([&](SqliteConnection& connection) {
-        add_delivery(connection, id, "test", {{"webhook", id}});
+bool SqliteWebhooks::add_test(const std::string& id) {
+    return database_.write([&](SqliteConnection& connection) {
+        return add_delivery(connection, id, "test", {{"webhook", id}}, most_pending_tests);
     });
 }
 
@@ -97,7 +97,9 @@ std::optional<DueDelivery> SqliteWebhooks::claim(std::int64_t lease_ms) {
             "status, error FROM deliveries WHERE next_ms <= ? ORDER BY next_ms LIMIT 1"));
         if (!query.bind(now_ms()).next()) return std::nullopt;
         DueDelivery due{delivery_of(query), {}};
-        due.webhook = find_webhook(connection, "", due.delivery.webhook).value();
+        const auto webhook = find_webhook(connection, "", due.delivery.webhook);
+        if (!webhook) throw StoreError("a message has no webhook");
+        due.webhook = *webhook;
         ++due.delivery.attempt;
         Query(connection.prepared("UPDATE deliveries SET next_ms = ?, attempt = ? WHERE seq = ?"))
             .bind(now_ms() + lease_ms, due.delivery.attempt, due.delivery.place)

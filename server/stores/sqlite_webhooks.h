@@ -16,7 +16,7 @@ public:
                                               const std::string& id) override;
     [[nodiscard]] bool remove(const std::string& owner, const std::string& id) override;
     [[nodiscard]] std::vector<Delivery> deliveries(const std::string& id) override;
-    void add_test(const std::string& id) override;
+    [[nodiscard]] bool add_test(const std::string& id) override;
     [[nodiscard]] std::optional<DueDelivery> claim(std::int64_t lease_ms) override;
     void settle(const Delivery& delivery) override;
 

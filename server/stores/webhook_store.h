@@ -45,8 +45,8 @@ public:
     [[nodiscard]] virtual bool remove(const std::string& owner, const std::string& id) = 0;
     /// The newest messages.
     [[nodiscard]] virtual std::vector<Delivery> deliveries(const std::string& id) = 0;
-    /// Puts a message of the kind "test" into the queue.
-    virtual void add_test(const std::string& id) = 0;
+    /// Puts a message of the kind "test" into the queue. False: too many wait, or it is gone.
+    [[nodiscard]] virtual bool add_test(const std::string& id) = 0;
     /// The oldest message that is due; it is due again after `lease_ms` unless it is settled.
     [[nodiscard]] virtual std::optional<DueDelivery> claim(std::int64_t lease_ms) = 0;
     /// What became of an attempt. `next_ms`: when to try again.

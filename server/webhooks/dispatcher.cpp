@@ -4,12 +4,13 @@
 
 #include "server/jobs/job.h"
 #include "server/observe/log.h"
-#include "server/stores/files.h"
 
 namespace lastflat::server {
 namespace {
 
 constexpr std::chrono::milliseconds look{500};
+/// A receiver that lets us wait keeps one of them.
+constexpr int most_at_once = 4;
 constexpr std::int64_t lease_ms = 60'000;
 constexpr int gone = 410;  ///< the receiver wants no more
 
@@ -22,15 +23,19 @@ std::optional<std::int64_t> back_off_ms(int attempt) {
 }
 
 WebhookDispatcher::WebhookDispatcher(WebhookStore& store, Post post)
-    : store_(store), post_(std::move(post)), thread_([this] {
-          std::unique_lock lock(mutex_);
-          while (!ending_) {
-              lock.unlock();
-              const bool sent = send_one();
-              lock.lock();
-              if (!sent) ended_.wait_for(lock, look, [this] { return ending_; });
-          }
-      }) {}
+    : store_(store), post_(std::move(post)) {
+    for (int i = 0; i < most_at_once; ++i) threads_.emplace_back([this] { work(); });
+}
+
+void WebhookDispatcher::work() {
+    std::unique_lock lock(mutex_);
+    while (!ending_) {
+        lock.unlock();
+        const bool sent = send_one();
+        lock.lock();
+        if (!sent) ended_.wait_for(lock, look, [this] { return ending_; });
+    }
+}
 
 WebhookDispatcher::~WebhookDispatcher() {
     {
@@ -38,7 +43,7 @@ WebhookDispatcher::~WebhookDispatcher() {
         ending_ = true;
     }
     ended_.notify_all();
-    thread_.join();
+    for (std::thread& thread : threads_) thread.join();
 }
 
 bool WebhookDispatcher::send_one() {
@@ -61,7 +66,7 @@ bool WebhookDispatcher::send_one() {
                               {"status", delivery.status},
                               {"why", delivery.error}});
         return true;
-    } catch (const StoreError& error) {
+    } catch (const std::exception& error) {
         log_event("store_failed", {{"why", error.what()}});
         return false;
     }

@@ -1,10 +1,11 @@
-// The thread that sends what is to be sent.
+// The threads that send what is to be sent.
 #pragma once
 
 #include <condition_variable>
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 #include "server/webhooks/post_message.h"
 
@@ -24,6 +25,7 @@ public:
     WebhookDispatcher& operator=(const WebhookDispatcher&) = delete;
 
 private:
+    void work();
     /// False: nothing was due.
     bool send_one();
 
@@ -32,7 +34,7 @@ private:
     std::mutex mutex_;
     std::condition_variable ended_;
     bool ending_ = false;
-    std::thread thread_;
+    std::vector<std::thread> threads_;
 };
 
 }  // namespace lastflat::server

@@ -185,3 +185,60 @@ is_taken() { ! curl -s --max-time 0.3 "$url$job" -o "$BATS_TEST_TMPDIR/taken"; }
     (( taken > 500 ))  # the job takes seconds; cut short, it ends at once
     run -0 wait "$server"
 }
+
+@test "a long poll answers when the job changes, and with 304 when it does not" {
+    start_server --workers 1
+    post "$slow"
+    wait_until 20 is_in_state "$job" running
+    ask "$url$job"
+    tag=$(header ETag)
+    ask -H 'Prefer: wait=1' -H "If-None-Match: W/\"0\"" "$url$job"  # another version: at once
+    assert_equal "$status $(header Preference-Applied)" "200 wait=1"
+    end=$(( SECONDS + 40 ))
+    while ask -H 'Prefer: wait=1' -H "If-None-Match: $tag" "$url$job"; [[ $status == 200 && $SECONDS -lt $end ]]; do tag=$(header ETag); done
+    assert_equal "$status" 304
+    curl -sS -H 'Prefer: wait=30' -H "If-None-Match: $tag" "$url$job" > "$BATS_TEST_TMPDIR/polled" &
+    poll=$!
+    sleep 0.2
+    begun=$(milliseconds)
+    ask -X POST "$url$job/cancel"
+    wait "$poll"
+    (( $(milliseconds) - begun < 2000 ))
+    [[ $(jq -r .state "$BATS_TEST_TMPDIR/polled") =~ ^cancel(ing|ed)$ ]]
+}
+
+@test "Cancel-After ends a job that has not ended by then, and says so" {
+    start_server --workers 1
+    ask -H 'Cancel-After: 1s' -F "model=@$slow" "$url/v1/jobs"
+    running=$(jq -r .links.self "$body")
+    ask -H 'Cancel-After: 1s' -F "model=@$sample/last.obj" "$url/v1/jobs"
+    waiting=$(jq -r .links.self "$body")
+    wait_until 5 has_ended_job "$waiting"
+    wait_until 5 has_ended_job "$running"
+    for path in "$running" "$waiting"; do
+        assert_equal "$(curl -sS "$url$path" | jq -c '[.state, .reason]')" '["canceled","deadline"]'
+    done
+}
+
+@test "one last, many jobs: an asset is kept once and used by its id" {
+    start_server
+    ask --data-binary "@$sample/last.obj" "$url/v1/assets"
+    assert_equal "$status" 201
+    asset=$(jq -r .id "$body")
+    assert_equal "$asset" "$(sha256sum < "$sample/last.obj" | cut -d' ' -f1)"
+    ask --data-binary "@$sample/last.obj" "$url/v1/assets"
+    assert_equal "$status" 200
+    jq -n --arg asset "$asset" --slurpfile request "$sample/last.request.json" \
+        '{jobs: [range(5) | {model: {asset_id: $asset}, request: ($request[0] + {tag: "size-\(.)"})}]}' > "$BATS_TEST_TMPDIR/batch"
+    ask -H 'Content-Type: application/json' -H 'Idempotency-Key: series' --data-binary "@$BATS_TEST_TMPDIR/batch" "$url/v1/jobs:batch"
+    assert_equal "$status $(jq -c '[.taken, .refused]' "$body")" "202 [5,0]"
+    batch=$(jq -r .links.self "$body")
+    ask -H 'Content-Type: application/json' -H 'Idempotency-Key: series' --data-binary "@$BATS_TEST_TMPDIR/batch" "$url/v1/jobs:batch"
+    assert_equal "$(jq -r .links.self "$body")" "$batch"
+    ask -X DELETE "$url/v1/assets/$asset"  # the jobs that use it keep it
+    is_finished() { [[ $(curl -sS "$url$batch" | jq .finished) == true ]]; }
+    wait_until 60 is_finished
+    assert_equal "$(curl -sS "$url$batch" | jq -c .states)" '{"succeeded":5}'
+    assert_equal "$(curl -sS "$url/v1/jobs?tag=size-3" | jq '.items | length')" 1
+    assert_equal "$(find "$data/blobs" -type f | wc -l)" 5  # the results; the model is gone
+}

@@ -11,8 +11,12 @@ setup_file() {
 setup() {
     command -v nginx > "$BATS_TEST_TMPDIR/nginx" || skip "nginx is not installed"
     sample=$BATS_FILE_TMPDIR/sample
+    DATA=$BATS_TEST_TMPDIR/data
+    key=$("$LASTFLAT" keys add test --data "$DATA" 2> "$BATS_TEST_TMPDIR/said")
     start_server --workers 1
     backend=$url
+    export CURL_HOME=$BATS_TEST_TMPDIR  # every curl of these tests sends the key
+    echo "header = \"Authorization: Bearer $key\"" > "$CURL_HOME/.curlrc"
     port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
     folder=$BATS_TEST_TMPDIR
     {
@@ -46,6 +50,19 @@ teardown() {
     ask -X DELETE "$url$job"
     wait $!
     grep -q '^event: deleted' "$BATS_TEST_TMPDIR/events"
+}
+
+@test "without a key nobody is served through the proxy" {
+    rm "$CURL_HOME/.curlrc"
+    ask "$url/v1/jobs"
+    assert_problem 401 key_missing
+    stop_servers
+    DATA=$BATS_TEST_TMPDIR/open
+    start_server
+    ask -H 'X-Forwarded-For: 203.0.113.9' "$url/v1/jobs"
+    assert_problem 401 no_keys
+    ask "$url/v1/jobs"
+    assert_equal "$status" 200
 }
 
 @test "what is too large, ambiguous or broken does not reach the service" {

@@ -36,7 +36,7 @@ class Soak:
         self.answers = collections.Counter()
         self.faults = []
         self.health, self.memory = [], []
-        self.hostile = [p.read_bytes() for p in sorted(HOSTILE.rglob("*")) if p.is_file() and p.stat().st_size < 300_000] or [b"hello"]
+        self.hostile = [p.read_bytes() for p in sorted(HOSTILE.rglob("*")) if p.is_file() and 0 < p.stat().st_size < 300_000] or [b"hello"]
 
     def ask(self, expected, method, path, body=None, headers=None):
         status, _, content = self.service.ask(method, path, body, headers)

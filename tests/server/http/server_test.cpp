@@ -185,6 +185,7 @@ TEST_SUITE("server/http/server") {
         CHECK(answer.find("7\r\nevent 3\r\n7\r\nevent 2\r\n7\r\nevent 1\r\n0\r\n") !=
               std::string::npos);
         CHECK(count_of(answer, "HTTP/1.1 200") == 2);
+        CHECK(status_of(ask(server.port(), "GET /stream HTTP/1.0\r\nHost: a\r\n\r\n")) == 505);
     }
 
     TEST_CASE("requests carry an id, the client's own if it is clean") {

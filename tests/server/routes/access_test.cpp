@@ -51,6 +51,9 @@ TEST_SUITE("server/routes/access") {
         CHECK(s.status(s.request("", "::ffff:127.0.0.1")) == 200);
         CHECK(s.status(s.request("", "192.168.0.7")) == 401);
         CHECK(s.status(s.request("", "1270.0.0.1")) == 401);
+        http::Request proxied = s.request("");
+        proxied.headers["x-forwarded-for"] = "203.0.113.9";
+        CHECK(s.status(proxied) == 401);
         const std::string key = s.keys.add("one");
         CHECK(s.status(s.request("")) == 401);
         CHECK(s.status(s.request("wrong")) == 401);
@@ -61,6 +64,7 @@ TEST_SUITE("server/routes/access") {
         CHECK(s.status(s.request("", "192.168.0.7", "/healthz")) == 200);
         CHECK(s.keys.revoke(s.keys.list().at(0).id));
         CHECK(s.status(s.request(key, "192.168.0.7")) == 401);
+        CHECK(s.status(s.request("")) == 401);  // with its last key revoked it does not open again
     }
 
     TEST_CASE("a key has its rate, says what is left, and shares it with nobody") {

@@ -81,7 +81,7 @@ TEST_SUITE("server/stores/sqlite_store") {
         const auto second = s.store.claim(long_lease).value();
         CHECK(second.attempt == 2);
         CHECK_FALSE(s.store.finish(first.lease, success("stale")).has_value());
-        CHECK_FALSE(s.store.release(first.lease, true).has_value());
+        CHECK_FALSE(s.store.release(first.lease, Release::lost).has_value());
         CHECK(s.state("A") == JobState::running);
         CHECK(s.store.renew(second.lease, long_lease) == Hold::held);
         CHECK(s.store.finish(second.lease, success("fresh")) == JobState::succeeded);
@@ -108,10 +108,21 @@ TEST_SUITE("server/stores/sqlite_store") {
         for (int i = 0; i < 5; ++i) {
             const auto claim = s.store.claim(long_lease).value();
             CHECK(claim.attempt == 1);
-            CHECK(s.store.release(claim.lease, false) == JobState::queued);
+            CHECK(s.store.release(claim.lease, Release::unfinished) == JobState::queued);
         }
-        CHECK(s.store.release(s.store.claim(long_lease)->lease, true) == JobState::queued);
+        CHECK(s.store.release(s.store.claim(long_lease)->lease, Release::lost) == JobState::queued);
         CHECK(s.store.claim(long_lease)->attempt == 2);
+    }
+
+    TEST_CASE("a job that is put off lets others go first") {
+        TestStore s;
+        REQUIRE(s.add(new_job("A")) == Admission::queued);
+        REQUIRE(s.add(new_job("B")) == Admission::queued);
+        CHECK(s.store.release(s.store.claim(long_lease)->lease, Release::later) ==
+              JobState::queued);
+        CHECK(s.store.claim(long_lease)->lease.id == "B");
+        CHECK_FALSE(s.store.claim(long_lease).has_value());  // A: in five seconds
+        CHECK(s.store.find("", "A")->attempt == 0);
     }
 
     TEST_CASE("a job that is cancelled while it runs ends as canceled, whatever it returns") {
@@ -138,7 +149,7 @@ TEST_SUITE("server/stores/sqlite_store") {
         CHECK(s.state("A") == JobState::canceling);
         CHECK(s.state("B") == JobState::canceled);
         CHECK(s.state("C") == JobState::queued);
-        CHECK(s.store.release(claim.lease, false) == JobState::canceled);
+        CHECK(s.store.release(claim.lease, Release::unfinished) == JobState::canceled);
         CHECK(s.store.find("", "A")->reason == "deadline");
     }
 

@@ -128,7 +128,7 @@ TEST_SUITE("server/webhooks/dispatcher") {
         SqliteWebhooks webhooks(s.database);
         for (const char* id : {"good", "broken", "gone"}) {
             webhooks.add(webhook(id, "", "job.failed"));
-            webhooks.add_test(id);
+            CHECK(webhooks.add_test(id));
         }
         std::atomic<int> posts{0};
         {

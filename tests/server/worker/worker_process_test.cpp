@@ -120,6 +120,7 @@ TEST_SUITE("server/jobs/worker_process") {
         using Kind = ProcessEnd::Kind;
         CHECK(kind("kill -SEGV $$") == Kind::crashed);
         CHECK(kind("kill -KILL $$") == Kind::lost);
+        CHECK(kind("kill -XCPU $$") == Kind::timed_out);
         CHECK(kind("exit 0") == Kind::crashed);
         CHECK(kind("echo nonsense; sleep 10") == Kind::crashed);
         CHECK(kind("echo '{\"stage\": 7}'") == Kind::crashed);
