@@ -109,7 +109,7 @@ public:
         new_task_queue = [] { return new InlineQueue; };
         set_idle_interval(0);
         // Not the default SO_REUSEPORT: a second server on the port must fail, not share it.
-        set_socket_options([this](socket_t fd) {
+        set_socket_options([](socket_t fd) {
             const int on = 1;
             ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
             ::fcntl(fd, F_SETFD, FD_CLOEXEC);

@@ -111,6 +111,7 @@ std::vector<http::Route> preflight_routes(const std::vector<http::Route>& routes
         if (route.method == "GET") methods += ", HEAD";
     }
     std::vector<http::Route> preflights;
+    preflights.reserve(allowed.size());
     for (const auto& [pattern, methods] : allowed) {
         preflights.push_back(
             {"OPTIONS", pattern, [allow = methods + ", OPTIONS"](const http::Request&) {

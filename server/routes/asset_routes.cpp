@@ -7,6 +7,7 @@
 #include "server/crypto.h"
 #include "server/routes/answers.h"
 #include "server/routes/submission.h"
+#include "server/routes/waiting_place.h"
 
 namespace lastflat::server {
 namespace {
@@ -84,8 +85,8 @@ Response validate(Service& service, const Request& request) {
             refuse(422, "asset_not_found", "there is no asset " + submission.asset.substr(0, 80));
         submission.model = service.blobs.read(submission.asset);
     }
-    const http::Seat seat(request.waiting_room);
-    if (!seat.is_taken())
+    const WaitingPlace place(service, request);
+    if (!place.is_taken())
         refuse(503, "validations_full", "too many models are being looked at; try again later");
     const ProcessEnd end = service.validate(submission.model, submission.request);
     if (end.kind == ProcessEnd::Kind::timed_out)

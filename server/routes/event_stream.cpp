@@ -6,6 +6,7 @@
 #include "api/job.h"
 #include "server/routes/answers.h"
 #include "server/routes/job_view.h"
+#include "server/routes/waiting_place.h"
 
 namespace lastflat::server {
 namespace {
@@ -28,11 +29,11 @@ public:
         : service_(service),
           owner_(request.principal),
           id_(request.captures.at(0)),
-          seat_(request.waiting_room),
+          place_(service, request),
           subscription_(service.watch, id_),
           seen_(seen) {}
 
-    [[nodiscard]] bool has_seat() const { return seat_.is_taken(); }
+    [[nodiscard]] bool has_place() const { return place_.is_taken(); }
 
     /// Sends what there is, or waits a while. False: it is over.
     bool step(const http::Write& write) {
@@ -86,7 +87,7 @@ private:
 
     Service& service_;
     const std::string owner_, id_;
-    const http::Seat seat_;
+    const WaitingPlace place_;
     JobWatch::Subscription subscription_;
     std::int64_t seen_;  ///< the last revision that the client has
     std::int64_t progress_seen_ = 0;
@@ -113,9 +114,10 @@ http::Response events(Service& service, const http::Request& request) {
     // What an EventSource asks after the end; this answer keeps it from asking again and again.
     if (is_final(job.state) && seen >= job.revision) return empty_response(204);
     const auto stream = std::make_shared<EventStream>(service, request, seen);
-    if (!stream->has_seat())
+    if (!stream->has_place())
         refuse(503, "streams_full",
-               "all event streams and long polls are taken (the limit --streams); poll the job");
+               "all event streams and long polls are taken, or this key's half of them (the limit "
+               "--streams); poll the job");
     http::Response response;
     response.media_type = "text/event-stream";
     response.headers.emplace_back("Cache-Control", "no-store");

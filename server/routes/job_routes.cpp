@@ -9,6 +9,7 @@
 #include "server/routes/answers.h"
 #include "server/routes/job_view.h"
 #include "server/routes/submit.h"
+#include "server/routes/waiting_place.h"
 
 namespace lastflat::server {
 namespace {
@@ -23,8 +24,8 @@ constexpr std::size_t code_bytes = 12;  ///< of a cursor's signature
 
 /// Waits until the job has ended, or differs from what the client has, or the time is over.
 JobRecord wait_for(Service& service, const Request& request, JobRecord job, int seconds) {
-    const http::Seat seat(request.waiting_room);
-    if (!seat.is_taken()) return job;
+    const WaitingPlace place(service, request);
+    if (!place.is_taken()) return job;
     const auto deadline = Clock::now() + std::chrono::seconds(seconds);
     JobWatch::Subscription subscription(service.watch, job.id);
     const bool until_change = request.headers.contains("if-none-match");

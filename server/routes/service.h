@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <map>
 #include <mutex>
 #include <set>
 #include <string>
@@ -36,6 +37,27 @@ private:
     std::set<std::string> keys_;
 };
 
+/// How many places to wait in each key has.
+class PlacesByKey {
+public:
+    /// False: the key has as many as it may. Without keys, whoever asks may have all.
+    [[nodiscard]] bool enter(const std::string& key, std::size_t most) {
+        const std::scoped_lock lock(mutex_);
+        std::size_t& places = places_[key];
+        if (!key.empty() && places >= most) return false;
+        ++places;
+        return true;
+    }
+    void leave(const std::string& key) {
+        const std::scoped_lock lock(mutex_);
+        if (--places_[key] == 0) places_.erase(key);
+    }
+
+private:
+    std::mutex mutex_;
+    std::map<std::string, std::size_t> places_;
+};
+
 struct Service {
     const Settings& settings;
     JobStore& jobs;
@@ -49,6 +71,7 @@ struct Service {
     Validator validate;
     std::string cursor_secret;
     KeysInFlight keys_in_flight{};
+    PlacesByKey places{};
     std::atomic<bool> draining{false};
 };
 

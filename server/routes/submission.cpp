@@ -4,6 +4,7 @@
 
 #include "api/base64.h"
 #include "api/flatten_request.h"
+#include "server/routes/side_files.h"
 #include "server/translate.h"
 
 namespace lastflat::server {
@@ -24,7 +25,9 @@ Submission checked(Submission submission) {
 }
 
 Submission from_parts(const http::Request& request) {
-    const http::BodyPart *model = nullptr, *asset = nullptr, *constraints = nullptr;
+    const http::BodyPart *model = nullptr, *asset = nullptr, *constraints = nullptr,
+                         *material = nullptr;
+    std::vector<const http::BodyPart*> buffers;
     for (const http::BodyPart& part : request.body) {
         const auto take = [&](const http::BodyPart*& place) {
             if (place != nullptr)
@@ -37,15 +40,24 @@ Submission from_parts(const http::Request& request) {
             take(asset);
         else if (part.name == "request")
             take(constraints);
+        else if (part.name == "mtl")
+            take(material);  // its names stand in the OBJ; what they look like does not matter here
+        else if (part.name == "buffers")
+            buffers.push_back(&part);
         else
             refuse(400, "part_unknown",
-                   "unknown part '" + part.name + "'; known are model, asset_id and request");
+                   "unknown part '" + part.name +
+                       "'; known are model, buffers, mtl, asset_id and request");
     }
     if ((model == nullptr) == (asset == nullptr))
         refuse(422, "model_missing",
                "send either the part 'model', the last's file, or 'asset_id', an uploaded one");
     Submission submission;
-    if (model != nullptr) submission.model = model->bytes;
+    if (!buffers.empty() && model == nullptr)
+        refuse(400, "part_unused", "an asset is one file: it has no buffers beside it");
+    if (model != nullptr)
+        submission.model =
+            buffers.empty() ? model->bytes : with_buffers_inside(model->bytes, buffers);
     if (asset != nullptr) submission.asset = asset->bytes;
     if (constraints != nullptr) submission.request = constraints->bytes;
     return checked(std::move(submission));

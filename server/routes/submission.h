@@ -13,7 +13,8 @@ struct Submission {
     std::string tag;
 };
 
-/// multipart/form-data with the parts `model` or `asset_id` and, optional, `request`;
+/// multipart/form-data with the parts `model` (and the `buffers` of a glTF, the `mtl` of an OBJ) or
+/// `asset_id` and, optional, `request`;
 /// application/json with the model in base64 or an asset's id; or the model's bytes alone, its
 /// constraints in the header `X-Flatten-Constraints` (base64url) or absent.
 /// Throws: Refusal, api::InvalidRequest, Error{unsupported_request}.

@@ -49,7 +49,7 @@ bool BlobStore::holds(const fs::path& path, std::string_view bytes) const {
 }
 
 std::string BlobStore::put(std::string_view bytes) const {
-    const std::string digest = sha256(bytes);
+    std::string digest = sha256(bytes);
     const fs::path path = path_of(digest);
     // Compared, not believed: a blob that went bad on the disk is mended here. One that is there
     // may have got its name a moment ago, by somebody who has not made it last yet.

@@ -38,8 +38,7 @@ bool SqliteAssets::remove(const std::string& owner, const std::string& digest) {
 
 std::string SqliteKeys::add(const std::string& name) {
     const std::string id = hexadecimal(random_bytes(id_bytes));
-    const std::string key =
-        std::string(key_prefix) + id + "_" + hexadecimal(random_bytes(secret_bytes));
+    std::string key = std::string(key_prefix) + id + "_" + hexadecimal(random_bytes(secret_bytes));
     database_.write([&](SqliteConnection& connection) {
         Query(connection.prepared("INSERT INTO keys VALUES (?, ?, ?, ?, NULL)"))
             .bind(id, name, sha256(key), now_ms())

@@ -70,7 +70,7 @@ std::string read_model(const WorkOrder& order) {
     return model;
 }
 
-void flatten(const WorkOrder& order, JobInput input) {
+void flatten(const WorkOrder& order, const JobInput& input) {
     Progress progress([](Stage stage, double fraction) {
         say({{"stage", name(stage)}, {"fraction", fraction}});
     });
@@ -102,7 +102,7 @@ void work(const WorkOrder& order) {
              std::nullopt, std::nullopt});
     }
     if (order.validate) return say(inspect_job(input));
-    flatten(order, std::move(input));
+    flatten(order, input);
 }
 
 }  // namespace

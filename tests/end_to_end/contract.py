@@ -454,7 +454,7 @@ def walk_keys(program, contract, example):
     with tempfile.TemporaryDirectory() as folder:
         keys = [subprocess.run([program, "keys", "add", name, "--data", folder], check=True, capture_output=True,
                                text=True).stdout.strip() for name in ("one", "two", "three")]
-        server = Server(program, "--rate", "150", "--queue-per-key", "2", "--workers", "1", "--data", folder)
+        server = Server(program, "--rate", "150", "--queue-per-key", "2", "--workers", "1", "--streams", "4", "--data", folder)
         try:
             nobody = Walk(server, contract)
             one, two, three = (Walk(server, contract, ["Authorization: Bearer " + key]) for key in keys)
@@ -472,12 +472,23 @@ def walk_keys(program, contract, example):
             for _ in range(2):
                 one.post(slow)
             one.expect(429, "key_queue_full", "POST", "/v1/jobs", body=slow)
+            # One key's half of the places to wait: the other key still gets its own.
+            waiting = one.expect(200, None, "GET", "/v1/jobs", query="?state=queued")["items"][0]["id"]
+            streams = [server.open(f"GET /v1/jobs/{waiting}/events HTTP/1.1\r\nHost: x\r\n{one.headers[0]}\r\n\r\n".encode()) for _ in range(2)]
+            for stream in streams:
+                stream.recv(100)
+            one.expect(503, "streams_full", "GET", "/v1/jobs/{id}/events", id=waiting)
             two.post(slow)
             for _ in range(160):
                 three.ask("GET", "/v1/jobs/{id}")
             for method, path, operation in contract.operations():
                 if "429" in operation["responses"]:
                     three.expect(429, "rate_exceeded" if method != "HEAD" else None, method, path)
+            other = two.expect(200, None, "GET", "/v1/jobs")["items"][0]["id"]
+            with server.open(f"GET /v1/jobs/{other}/events HTTP/1.1\r\nHost: x\r\n{two.headers[0]}\r\n\r\n".encode()) as stream:
+                assert b" 200 " in stream.recv(100)
+            for stream in streams:
+                stream.close()
             subprocess.run([program, "keys", "revoke", keys[1].split("_")[1], "--data", folder], check=True)
             two.expect(401, "key_unknown", "GET", "/v1/jobs")
         finally:

@@ -69,6 +69,28 @@ PYTHON
     assert_same_result glb/result.json gltf/result.json
 }
 
+@test "a glTF file whose buffer is sent beside it gives what the GLB gives" {
+    python3 - "$sample/last.glb" <<'PYTHON'
+import json, struct, sys
+data = open(sys.argv[1], "rb").read()
+size = struct.unpack("<I", data[12:16])[0]
+gltf = json.loads(data[20:20 + size])
+open("last.bin", "wb").write(data[28 + size:][:gltf["buffers"][0]["byteLength"]])
+gltf["buffers"][0]["uri"] = "last.bin"
+json.dump(gltf, open("last.gltf", "w"))
+PYTHON
+    start_server
+    OUT=glb "$examples/curl/flatten.sh" "$sample/last.glb" "$sample/last.no_units.json"
+    ask -F model=@last.gltf -F "request=@$sample/last.no_units.json" "$url/v1/jobs"
+    job=$(jq -r .links.self "$body")
+    wait_until 20 has_ended_job "$job"
+    assert_equal "$(curl -sS "$url$job" | jq -r .error.code)" unsupported_model
+    ask -H 'Prefer: wait=30' -F model=@last.gltf -F buffers=@last.bin -F "request=@$sample/last.no_units.json" "$url/v1/jobs"
+    assert_equal "$status" 200
+    curl -sSf "$url$(jq -r .links.result "$body")" -o beside.json
+    assert_same_result glb/result.json beside.json
+}
+
 @test "the clients take files whose names have spaces, quotes, commas, semicolons and backslashes" {
     start_server
     odd="a last, size \"41\"; it's \\ odd =@<.obj"

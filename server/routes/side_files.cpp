@@ -1,0 +1,58 @@
+#include "server/routes/side_files.h"
+
+#include <algorithm>
+
+#include "api/base64.h"
+#include "api/object_reader.h"
+#include "server/http/text.h"
+#include "server/routes/answers.h"
+
+namespace lastflat::server {
+namespace {
+
+constexpr int deepest = 64;
+constexpr std::string_view data_scheme = "data:";
+
+/// The part whose file name is the URI, plain or percent-encoded; a leading "./" does not count.
+std::size_t part_for(std::string uri, const std::vector<const http::BodyPart*>& buffers) {
+    uri = http::percent_decoded(uri, false).value_or(uri);
+    if (uri.rfind("./", 0) == 0) uri.erase(0, 2);
+    const auto found = std::find_if(buffers.begin(), buffers.end(),
+                                    [&](const auto* part) { return part->file_name == uri; });
+    if (found == buffers.end())
+        refuse(422, "buffer_missing",
+               "the glTF refers to '" + uri.substr(0, 80) +
+                   "': send that file as a part 'buffers' with this file name");
+    return static_cast<std::size_t>(found - buffers.begin());
+}
+
+}  // namespace
+
+std::string with_buffers_inside(const std::string& gltf,
+                                const std::vector<const http::BodyPart*>& buffers) {
+    if (gltf.find_first_not_of(" \t\r\n") == std::string::npos ||
+        gltf[gltf.find_first_not_of(" \t\r\n")] != '{')
+        refuse(400, "part_unused", "only a glTF document (JSON) has buffers beside it");
+    nlohmann::json document = api::parse_json(gltf, deepest);
+    std::vector<bool> used(buffers.size(), false);
+    if (document.contains("buffers") && document["buffers"].is_array()) {
+        for (auto& buffer : document["buffers"]) {
+            if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string())
+                continue;
+            const auto uri = buffer["uri"].get<std::string>();
+            if (uri.rfind(data_scheme, 0) == 0) continue;
+            const std::size_t part = part_for(uri, buffers);
+            used[part] = true;
+            buffer["uri"] =
+                "data:application/octet-stream;base64," + api::encode_base64(buffers[part]->bytes);
+        }
+    }
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+        if (!used[i])
+            refuse(400, "part_unused",
+                   "no buffer of the glTF is called '" + buffers[i]->file_name.substr(0, 80) + "'");
+    }
+    return document.dump();
+}
+
+}  // namespace lastflat::server
