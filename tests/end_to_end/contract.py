@@ -2,6 +2,7 @@
 """Holds a running server against api/openapi.json.
 
     LASTFLAT=build/release/lastflat tests/end_to_end/contract.py
+    tests/end_to_end/contract.py --answers FOLDER     (answers that other tests have kept)
 
 Starts a server, provokes every path, method and status that it can, and validates every answer: status declared, headers
 declared, present and well-formed, content type declared, body as its schema says. Ends with 1 if an answer breaks the
@@ -15,6 +16,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import select
 import socket
 import subprocess
@@ -565,7 +567,39 @@ def walk_sample(walk, program):
     walk.expect(200, None, "GET", "/v1/jobs/{id}/result", id=id)
 
 
+def template_of(contract, path):
+    """The path of the contract that a path is an instance of; itself if there is none."""
+    groups = {"{id}": "(?:[0-9A-Z]{26}|[0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12})", "{digest}": "[0-9a-f]{64}"}
+    for template in contract.document["paths"]:
+        pattern = re.escape(template)
+        for name, group in groups.items():
+            pattern = pattern.replace(re.escape(name), group)
+        if re.fullmatch(pattern, path):
+            return template
+    return path
+
+
+def check_answers(folder):
+    """Holds answers that were kept (asked: status, method, URL; headers; body) against the contract."""
+    contract = Contract(json.loads((ROOT / "api" / "openapi.json").read_text()))
+    kept = [path for path in sorted(pathlib.Path(folder).iterdir()) if (path / "asked").exists()]
+    for path in kept:
+        status, method, url = (path / "asked").read_text().split(maxsplit=2)
+        lines = (path / "headers").read_text("latin-1").replace("\r", "").strip().split("\n\n")[-1].splitlines()
+        headers = {name.lower(): value.strip() for name, _, value in (line.partition(":") for line in lines[1:])}
+        body = path / "body"
+        if int(status) == 0 or (not body.exists() and headers.get("content-length", "0") != "0" and method != "HEAD"):
+            continue  # no answer at all, or one too large to be kept
+        content = body.read_bytes() if body.exists() and method != "HEAD" else b""
+        contract.check(method, template_of(contract, urllib.parse.urlsplit(url.strip()).path), (int(status), headers, content))
+    if contract.faults:
+        print(f"{len(kept)} answers, {len(contract.faults)} faults")
+    sys.exit(1 if contract.faults else 0)
+
+
 def main():
+    if sys.argv[1:2] == ["--answers"]:
+        check_answers(sys.argv[2])
     program = os.environ.get("LASTFLAT", "")
     if not os.access(program, os.X_OK):
         sys.exit("LASTFLAT must name the program to test, such as build/release/lastflat")

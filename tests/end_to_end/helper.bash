@@ -56,8 +56,27 @@ has_ended() { [[ ! -e /proc/$1/status ]] || grep -q '^State:.*Z' "/proc/$1/statu
 
 # ask CURL_ARGUMENTS...: sets $status; the answer is in $body and $headers (files).
 ask() {
+    local asked
     body=$BATS_TEST_TMPDIR/body headers=$BATS_TEST_TMPDIR/headers
-    status=$(curl -sS -g --max-time 60 -o "$body" -D "$headers" -w '%{http_code}' "$@")
+    rm -f "$body"  # an answer without a body makes none
+    asked=$(curl -sS -g --max-time 60 -o "$body" -D "$headers" -w '%{http_code} %{method} %{url_effective}' "$@")
+    status=${asked%% *}
+    keep_answer "$asked"
+}
+
+# Every answer of the service is kept, and held against the contract when the file's tests are through.
+keep_answer() {
+    [[ -z ${BEHIND_PROXY:-} ]] || return 0  # some of its answers are its own
+    local kept
+    mkdir -p "$BATS_FILE_TMPDIR/answers"
+    kept=$(mktemp -d "$BATS_FILE_TMPDIR/answers/XXXXXXXX")
+    echo "$1" > "$kept/asked"
+    cp "$headers" "$kept/headers"
+    if [[ -e $body && $(stat -c %s "$body") -lt 3000000 ]]; then cp "$body" "$kept/body"; fi
+}
+teardown_file() {
+    [[ -d $BATS_FILE_TMPDIR/answers ]] || return 0
+    echo "# $(ls "$BATS_FILE_TMPDIR/answers" | wc -l) answers are held against the contract" >&3; python3 "$BATS_TEST_DIRNAME/contract.py" --answers "$BATS_FILE_TMPDIR/answers" || (( $? == 77 ))
 }
 
 # header NAME: its value in the last answer.

@@ -2,6 +2,7 @@
 # The service behind a real nginx with the configuration that we recommend.
 
 load helper
+BEHIND_PROXY=yes
 
 setup_file() {
     require_program
