@@ -1,5 +1,5 @@
-// Holds connections that need no thread: those whose head is still coming, and those whose answer
-// is out and whose client has not yet hung up.
+// Holds connections that need no thread: those whose head, the first or the next one, is still
+// coming, and those whose last answer is out and whose client has not yet hung up.
 #pragma once
 
 #include <atomic>
