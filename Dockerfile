@@ -11,7 +11,7 @@ FROM debian:12-slim
 COPY --from=build /src/tests/install.sh /tmp/install.sh
 RUN /tmp/install.sh run && rm -rf /tmp/install.sh /var/lib/apt/lists/*
 RUN useradd --system --uid 10001 --home-dir /data lastflat && install -d -o lastflat /data
-COPY --from=build /src/build/release/lastflat /usr/local/bin/lastflat
+COPY --from=build /src/build/release/lastflat /src/build/release/lastflat-work /usr/local/bin/
 USER lastflat
 VOLUME /data
 EXPOSE 8080

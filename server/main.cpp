@@ -9,7 +9,6 @@
 #include "server/operator_commands.h"
 #include "server/serve.h"
 #include "server/version.h"
-#include "server/worker/work.h"
 
 namespace {
 
@@ -174,8 +173,6 @@ CLI::App* add_sample_last(CLI::App& app, Arguments& a) {
 }
 
 int run(int argc, char** argv) {
-    // A worker of the service, not for people: it takes its order from standard input.
-    if (argc == 2 && std::string_view(argv[1]) == "work") server::work_command();
     Arguments a;
     CLI::App app(
         "lastflat: 3D shoe lasts to flat patterns whose named curves keep their length exactly");

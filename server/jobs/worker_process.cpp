@@ -12,6 +12,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -93,8 +94,8 @@ pid_t spawn(const std::string& program, int in, int out, int errors) {
     posix_spawnattr_setflags(
         &attributes,
         static_cast<short>(POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP));
-    std::string name = "lastflat", command = "work";
-    std::array<char*, 3> arguments{name.data(), command.data(), nullptr};
+    std::string name = "lastflat-work";
+    std::array<char*, 2> arguments{name.data(), nullptr};
     std::array<char*, 1> environment{nullptr};
     pid_t process = -1;
     const int error = ::posix_spawn(&process, program.c_str(), &actions, &attributes,
@@ -211,6 +212,10 @@ private:
 };
 
 }  // namespace
+
+std::string worker_program() {
+    return std::filesystem::read_symlink("/proc/self/exe").replace_filename("lastflat-work");
+}
 
 ProcessEnd run_worker_process(WorkOrder order, const ProcessLimits& limits,
                               const ProcessControl& control) {

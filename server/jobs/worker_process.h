@@ -9,9 +9,12 @@
 
 namespace lastflat::server {
 
+/// `lastflat-work`, beside the running program.
+[[nodiscard]] std::string worker_program();
+
 struct ProcessLimits {
-    std::string program = "/proc/self/exe";  ///< what answers to the argument "work"
-    int memory_mb = 4096;                    ///< 0: no limit
+    std::string program = worker_program();
+    int memory_mb = 4096;  ///< 0: no limit
     std::chrono::milliseconds time{300'000};
 };
 

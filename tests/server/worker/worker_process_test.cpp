@@ -22,7 +22,10 @@ struct WorkSetting {
     ProcessLimits limits;
     std::vector<std::string> stages;
 
-    WorkSetting() { limits.program = std::getenv("LASTFLAT") ? std::getenv("LASTFLAT") : ""; }
+    WorkSetting() {
+        if (const char* program = std::getenv("LASTFLAT"))
+            limits.program = std::filesystem::path(program).replace_filename("lastflat-work");
+    }
 
     WorkOrder order(const std::string& model, const std::string& request = "") const {
         WorkOrder order;
@@ -68,7 +71,7 @@ std::string script(const WorkSetting& s, const std::string& body) {
 TEST_SUITE("server/jobs/worker_process") {
     TEST_CASE("a job comes back with every format, plain and compressed, each checked") {
         WorkSetting s;
-        REQUIRE_FALSE(s.limits.program.empty());
+        REQUIRE(std::filesystem::exists(s.limits.program));
         const ProcessEnd end = s.run(s.order(square));
         REQUIRE(end.kind == ProcessEnd::Kind::finished);
         CHECK(end.outcome.error == "");
