@@ -26,6 +26,8 @@ public:
 
 private:
     void sweep();
+    /// What takes too long for every second.
+    void look_slowly();
 
     Service& service_;
     std::size_t sweeps_ = 0;

@@ -89,6 +89,10 @@ CLI::App* add_serve(CLI::App& app, Arguments& a) {
     options.add("queue", s.queue, "Jobs that may wait")->check(CLI::Range(1, 100000));
     options.add("queue-per-key", s.queue_per_key, "Jobs of one API key that may wait")
         ->check(CLI::Range(1, 100000));
+    options.add("assets-per-key-mb", s.assets_per_key_mb, "Assets of one API key, MiB")
+        ->check(CLI::Range(1, 1 << 24));
+    options.add("min-free-mb", s.min_free_mb, "Room on the disk below which nothing is taken, MiB")
+        ->check(CLI::Range(0, 1 << 24));
     options.add("rate", s.rate, "Requests of one API key in a minute; 0: any number");
     options.add("max-body-mb", s.max_body_mb, "Largest request, MiB")->check(CLI::Range(1, 4096));
     options.add("connections", s.connections, "Connections served at once")

@@ -146,6 +146,9 @@ public:
         }
         http::ServerHooks with_access = hooks(metrics_);
         with_access.admit = [this](http::Request& request) { return access_.admit(request); };
+        with_access.origin_headers = [this](std::string_view origin) {
+            return access_.origin_headers(origin);
+        };
         main_.emplace(public_routes(service_, webhooks_), public_limits(settings_), with_access,
                       settings_.listen);
         if (settings_.admin)

@@ -249,15 +249,9 @@ bool has_item(std::string_view list, std::string_view word) {
     return false;
 }
 
-Head read_head(const RequestLine& line, const std::vector<std::string_view>& lines,
-               const RouteTable& routes, const ServerLimits& limits) {
-    check_target(line.target);
-    Head head;
-    head.request.method = line.method;
+void read_meaning(Head& head, const RequestLine& line, const RouteTable& routes,
+                  const ServerLimits& limits) {
     const std::string_view raw_path = line.target.substr(0, line.target.find('?'));
-    head.request.path = decoded(raw_path, false);
-    for (std::size_t i = 1; i < lines.size(); ++i) add_header(head.request.headers, lines[i]);
-
     check_host(head.request, line.is_http_1_0);
     check_framing(head.request, line.is_http_1_0);
     head.chunked = head.request.headers.contains("transfer-encoding");
@@ -274,6 +268,21 @@ Head read_head(const RequestLine& line, const std::vector<std::string_view>& lin
     head.keeps_alive = !line.is_http_1_0 && !has_item(head.request.header("connection"), "close");
     head.awaits_continue =
         head.has_body() && head.request.headers.contains("expect") && !line.is_http_1_0;
+}
+
+Head read_head(const RequestLine& line, const std::vector<std::string_view>& lines,
+               const RouteTable& routes, const ServerLimits& limits) {
+    check_target(line.target);
+    Head head;
+    head.request.method = line.method;
+    head.request.path = decoded(line.target.substr(0, line.target.find('?')), false);
+    for (std::size_t i = 1; i < lines.size(); ++i) add_header(head.request.headers, lines[i]);
+    try {
+        read_meaning(head, line, routes, limits);
+    } catch (Refusal& refusal) {
+        refusal.from_origin(head.request.header("origin"));
+        throw;
+    }
     return head;
 }
 

@@ -136,8 +136,13 @@ struct AnswerReport {
 /// Told of every answer. Called from several threads at once; must not throw.
 using AnswerLog = std::function<void(const AnswerReport&)>;
 
+/// The headers that let a web page of this origin read an answer; none: it may not.
+using OriginHeaders =
+    std::function<std::vector<std::pair<std::string, std::string>>(std::string_view origin)>;
+
 struct ServerHooks {
     ProblemMaker problem;
+    OriginHeaders origin_headers{};  ///< for requests that are refused before `admit` sees them
     FailureLog failed{};
     Admit admit{};
     AnswerLog answered{};

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,14 +27,21 @@ public:
         return *this;
     }
 
+    /// The web page that asks, as far as the request was read.
+    Refusal& from_origin(std::string_view origin) {
+        origin_ = origin;
+        return *this;
+    }
+
     [[nodiscard]] int status() const { return status_; }
     [[nodiscard]] const std::string& code() const { return code_; }
     [[nodiscard]] bool is_without_body() const { return without_body_; }
+    [[nodiscard]] const std::string& origin() const { return origin_; }
     [[nodiscard]] const auto& headers() const { return headers_; }
 
 private:
     int status_;
-    std::string code_;
+    std::string code_, origin_;
     bool without_body_ = false;
     std::vector<std::pair<std::string, std::string>> headers_;
 };

@@ -106,7 +106,7 @@ std::optional<std::string> Server::Impl::on_head(Socket& socket, std::string& by
         connection.socket = std::move(socket);
         if (pool.offer(connection)) return std::nullopt;
         socket = std::move(connection.socket);
-        Refusal refusal = overloaded();
+        Refusal refusal = overloaded().from_origin(connection.head.request.header("origin"));
         if (without_body) refusal.without_body();
         return refusal_bytes(refusal);
     } catch (const Refusal& refusal) {
@@ -119,7 +119,12 @@ std::string Server::Impl::refusal_bytes(const Refusal& refusal) const {
         const Request unknown;
         hooks_.answered({unknown, "", refusal.status()});
     }
-    return answer_bytes(answer_to(refusal, hooks_.problem), refusal.is_without_body());
+    Response response = answer_to(refusal, hooks_.problem);
+    if (hooks_.origin_headers) {
+        for (auto& header : hooks_.origin_headers(refusal.origin()))
+            response.headers.push_back(std::move(header));
+    }
+    return answer_bytes(response, refusal.is_without_body());
 }
 
 /// The client's own, if a log can hold it; else ours, which no two requests share.

@@ -26,6 +26,7 @@ constexpr std::array descriptions{
     Description{"lastflat_workers", "gauge", "Workers there are."},
     Description{"lastflat_workers_busy", "gauge", "Workers at work."},
     Description{"lastflat_stored_bytes", "gauge", "Bytes of models and results on the disk."},
+    Description{"lastflat_disk_free_bytes", "gauge", "Room on that disk."},
     Description{"lastflat_sqlite_seconds", "histogram", "Duration of transactions by kind."},
     Description{"lastflat_store_failures_total", "counter", "Transactions that failed."},
 };

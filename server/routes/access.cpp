@@ -80,19 +80,24 @@ std::optional<http::Response> Access::count(http::Request& request) {
     return response;
 }
 
-void Access::allow_origin(http::Request& request) const {
-    if (settings_.allowed_origins.empty()) return;
-    request.answer_headers.emplace_back("Vary", "Origin");
-    const std::string origin(request.header("origin"));
+std::vector<std::pair<std::string, std::string>> Access::origin_headers(
+    std::string_view origin) const {
     const auto& allowed = settings_.allowed_origins;
+    if (allowed.empty()) return {};
+    std::vector<std::pair<std::string, std::string>> headers{{"Vary", "Origin"}};
     if (origin.empty() || std::find(allowed.begin(), allowed.end(), origin) == allowed.end())
-        return;
-    request.answer_headers.emplace_back("Access-Control-Allow-Origin", origin);
-    request.answer_headers.emplace_back(
-        "Access-Control-Expose-Headers",
-        "Location, ETag, Retry-After, X-Request-Id, RateLimit, RateLimit-Policy, "
-        "Preference-Applied, Idempotent-Replayed, Link, Content-Disposition");
-    if (request.method != "OPTIONS") return;
+        return headers;
+    headers.emplace_back("Access-Control-Allow-Origin", origin);
+    headers.emplace_back("Access-Control-Expose-Headers",
+                         "Location, ETag, Retry-After, X-Request-Id, RateLimit, RateLimit-Policy, "
+                         "Preference-Applied, Idempotent-Replayed, Link, Content-Disposition");
+    return headers;
+}
+
+void Access::allow_origin(http::Request& request) const {
+    const auto headers = origin_headers(request.header("origin"));
+    request.answer_headers.insert(request.answer_headers.end(), headers.begin(), headers.end());
+    if (headers.size() < 2 || request.method != "OPTIONS") return;
     request.answer_headers.emplace_back("Access-Control-Allow-Methods",
                                         "GET, HEAD, POST, PUT, DELETE");
     request.answer_headers.emplace_back(

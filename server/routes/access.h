@@ -20,6 +20,9 @@ public:
     /// Sets the principal and the headers of the answer; an answer that ends the request, or
     /// nothing.
     [[nodiscard]] std::optional<http::Response> admit(http::Request& request);
+    /// What lets a web page of this origin read the answer: nothing unless it is on the list.
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> origin_headers(
+        std::string_view origin) const;
 
 private:
     [[nodiscard]] std::optional<http::Response> check_key(http::Request& request);

@@ -41,7 +41,6 @@ http::Response metrics(Service& service) {
                     : 0.0);
     metrics.set("lastflat_workers", static_cast<double>(service.settings.workers));
     metrics.set("lastflat_workers_busy", static_cast<double>(service.workers.busy()));
-    metrics.set("lastflat_stored_bytes", static_cast<double>(service.blobs.bytes()));
     http::Response response = json_response(200, metrics.text());
     response.media_type = "text/plain; version=0.0.4; charset=utf-8";
     return response;

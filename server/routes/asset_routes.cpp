@@ -7,6 +7,7 @@
 #include "server/crypto.h"
 #include "server/routes/answers.h"
 #include "server/routes/submission.h"
+#include "server/routes/submit.h"
 #include "server/routes/waiting_place.h"
 
 namespace lastflat::server {
@@ -16,11 +17,14 @@ using http::Request;
 using http::Response;
 using Json = nlohmann::ordered_json;
 
+Json asset_json(const Asset& asset) {
+    return {{"id", asset.digest},
+            {"bytes", asset.bytes},
+            {"created_at", api::rfc3339(asset.created_ms)}};
+}
+
 Response asset_response(int status, const Asset& asset) {
-    const Json json{{"id", asset.digest},
-                    {"bytes", asset.bytes},
-                    {"created_at", api::rfc3339(asset.created_ms)}};
-    Response response = json_response(status, json.dump());
+    Response response = json_response(status, asset_json(asset).dump());
     response.headers.emplace_back("ETag", "\"" + asset.digest + "\"");
     return response;
 }
@@ -42,6 +46,17 @@ void check_digest(const Request& request, const std::string& bytes) {
         refuse(400, "digest_differs", "the body is not the one of Content-Digest; send it again");
 }
 
+[[noreturn]] void refuse_unknown(const std::string& id) {
+    refuse(404, "asset_not_found", "there is no asset " + id + "; it may have been deleted");
+}
+
+Response list(Service& service, const Request& request) {
+    Json items = Json::array();
+    for (const Asset& asset : service.assets.list(request.principal))
+        items.push_back(asset_json(asset));
+    return json_response(200, Json{{"items", std::move(items)}}.dump());
+}
+
 Response add(Service& service, const Request& request) {
     const http::BodyPart* model = nullptr;
     for (const http::BodyPart& part : request.body) {
@@ -50,17 +65,30 @@ Response add(Service& service, const Request& request) {
     if (model == nullptr || model->bytes.empty())
         refuse(422, "model_missing", "the model is empty: send it as the body or the part 'model'");
     check_digest(request, model->bytes);
-    const auto pin = service.blobs.pin();
-    const std::string digest = service.blobs.put(model->bytes);
-    const bool is_new = service.assets.add(request.principal, digest, model->bytes.size());
-    Response response =
-        asset_response(is_new ? 201 : 200, service.assets.find(request.principal, digest).value());
+    check_room(service);
+    AssetLimits limits;
+    limits.bytes = service.settings.assets_per_key_mb << 20;
+    std::string digest;
+    AssetAdmission admission{};
+    {
+        const auto pin = service.blobs.pin();
+        digest = service.blobs.put(model->bytes);
+        admission = service.assets.add(request.principal, digest, model->bytes.size(), limits);
+    }
+    if (admission == AssetAdmission::full) {
+        drop_unneeded(service.blobs, service.jobs, {digest});
+        refuse(507, "assets_full",
+               "with this asset there would be more than " +
+                   std::to_string(service.settings.assets_per_key_mb) + " MiB or " +
+                   std::to_string(limits.count) +
+                   " assets of this API key (the limit --assets-per-key-mb); delete some: "
+                   "GET /v1/assets lists them");
+    }
+    const auto asset = service.assets.find(request.principal, digest);
+    if (!asset) refuse_unknown(digest);  // deleted meanwhile
+    Response response = asset_response(admission == AssetAdmission::added ? 201 : 200, *asset);
     response.headers.emplace_back("Location", "/v1/assets/" + digest);
     return response;
-}
-
-[[noreturn]] void refuse_unknown(const std::string& id) {
-    refuse(404, "asset_not_found", "there is no asset " + id + "; it may have been deleted");
 }
 
 Response get(Service& service, const Request& request) {
@@ -114,7 +142,8 @@ std::vector<http::Route> asset_routes(Service& service) {
                            }),
                            takes_body};
     };
-    return {route("POST", "/v1/assets", add, true), route("GET", "/v1/assets/{digest}", get),
+    return {route("POST", "/v1/assets", add, true), route("GET", "/v1/assets", list),
+            route("GET", "/v1/assets/{digest}", get),
             route("DELETE", "/v1/assets/{digest}", remove),
             route("POST", "/v1/validate", validate, true)};
 }

@@ -87,10 +87,19 @@ std::string digest_of_model(Service& service, const std::string& owner,
 
 }  // namespace
 
+void check_room(const Service& service) {
+    if (service.blobs.free_bytes() >= service.settings.min_free_mb << 20) return;
+    refuse(507, "storage_full",
+           "less than " + std::to_string(service.settings.min_free_mb) +
+               " MiB of the service's disk are free (the limit --min-free-mb); its operator has to "
+               "make room, or delete jobs and assets that you do not need");
+}
+
 Submitted submit(Service& service, const http::Request& request, const Submission& submission,
                  const std::string& id, const std::string& batch) {
     if (service.draining)
         refuse(503, "draining", "the service is ending and takes no new jobs; try again later");
+    check_room(service);
     NewJob job;
     job.id = id.empty() ? new_job_id() : id;
     job.owner = request.principal;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lastflat::server {
 
@@ -13,15 +14,24 @@ struct Asset {
     std::int64_t created_ms = 0;
 };
 
+struct AssetLimits {
+    std::uint64_t bytes = 4ULL << 30;  ///< of one owner
+    std::size_t count = 10'000;
+};
+
+enum class AssetAdmission { added, known, full };
+
 /// Every call is safe from any thread and may throw StoreError.
 class AssetStore {
 public:
     virtual ~AssetStore() = default;
-    /// True: it is new; false: the owner had it already.
-    [[nodiscard]] virtual bool add(const std::string& owner, const std::string& digest,
-                                   std::uint64_t bytes) = 0;
+    /// `full`: with it the owner would have more than the limits, so it was not added.
+    [[nodiscard]] virtual AssetAdmission add(const std::string& owner, const std::string& digest,
+                                             std::uint64_t bytes, const AssetLimits& limits) = 0;
     [[nodiscard]] virtual std::optional<Asset> find(const std::string& owner,
                                                     const std::string& digest) = 0;
+    /// Newest first.
+    [[nodiscard]] virtual std::vector<Asset> list(const std::string& owner) = 0;
     [[nodiscard]] virtual bool remove(const std::string& owner, const std::string& digest) = 0;
 };
 

@@ -106,4 +106,11 @@ std::uintmax_t BlobStore::bytes() const {
     return sum;
 }
 
+std::uintmax_t BlobStore::free_bytes() const {
+    std::error_code unknown;
+    const fs::space_info space = fs::space(folder_, unknown);
+    if (unknown) throw StoreError("the room on the disk cannot be told: " + unknown.message());
+    return space.available;
+}
+
 }  // namespace lastflat::server

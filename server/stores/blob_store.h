@@ -89,6 +89,8 @@ public:
     }
     [[nodiscard]] std::vector<std::string> all() const;
     [[nodiscard]] std::uintmax_t bytes() const;
+    /// Of the disk that the blobs are on.
+    [[nodiscard]] std::uintmax_t free_bytes() const;
 
 private:
     void remove_unfinished() const;

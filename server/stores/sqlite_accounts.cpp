@@ -11,11 +11,36 @@ constexpr std::size_t id_bytes = 6, secret_bytes = 32;
 
 }  // namespace
 
-bool SqliteAssets::add(const std::string& owner, const std::string& digest, std::uint64_t bytes) {
+AssetAdmission SqliteAssets::add(const std::string& owner, const std::string& digest,
+                                 std::uint64_t bytes, const AssetLimits& limits) {
     return database_.write([&](SqliteConnection& connection) {
-        return Query(connection.prepared("INSERT OR IGNORE INTO assets VALUES (?, ?, ?, ?)"))
-                   .bind(owner, digest, bytes, now_ms())
-                   .run() > 0;
+        Query known(connection.prepared("SELECT 1 FROM assets WHERE owner = ? AND digest = ?"));
+        if (known.bind(owner, digest).next()) return AssetAdmission::known;
+        Query used(connection.prepared(
+            "SELECT COUNT(*), COALESCE(SUM(bytes), 0) FROM assets WHERE owner = ?"));
+        if (used.bind(owner).next() &&
+            (static_cast<std::size_t>(used.number(0)) >= limits.count ||
+             static_cast<std::uint64_t>(used.number(1)) + bytes > limits.bytes))
+            return AssetAdmission::full;
+        Query(connection.prepared("INSERT INTO assets VALUES (?, ?, ?, ?)"))
+            .bind(owner, digest, bytes, now_ms())
+            .run();
+        return AssetAdmission::added;
+    });
+}
+
+std::vector<Asset> SqliteAssets::list(const std::string& owner) {
+    return database_.read([&](SqliteConnection& connection) {
+        Query query(
+            connection.prepared("SELECT digest, bytes, created_ms FROM assets "
+                                "WHERE owner = ? ORDER BY created_ms DESC, digest"));
+        query.bind(owner);
+        std::vector<Asset> assets;
+        while (query.next()) {
+            assets.push_back(
+                {query.text(0), static_cast<std::uint64_t>(query.number(1)), query.number(2)});
+        }
+        return assets;
     });
 }
 

@@ -11,10 +11,11 @@ class SqliteAssets final : public AssetStore {
 public:
     /// The database must outlive the store.
     explicit SqliteAssets(SqliteDatabase& database) : database_(database) {}
-    [[nodiscard]] bool add(const std::string& owner, const std::string& digest,
-                           std::uint64_t bytes) override;
+    [[nodiscard]] AssetAdmission add(const std::string& owner, const std::string& digest,
+                                     std::uint64_t bytes, const AssetLimits& limits) override;
     [[nodiscard]] std::optional<Asset> find(const std::string& owner,
                                             const std::string& digest) override;
+    [[nodiscard]] std::vector<Asset> list(const std::string& owner) override;
     [[nodiscard]] bool remove(const std::string& owner, const std::string& digest) override;
 
 private:

@@ -120,11 +120,29 @@ teardown() { stop_servers; }
     assert_equal "$(curl -sS "$url$job" | jq -r .error.code)" model_lost
 }
 
+@test "a disk that may not be written to is named at the start" {
+    mkdir -p "$BATS_TEST_TMPDIR/fixed"
+    mount -t tmpfs -o size=1m,ro tmpfs "$BATS_TEST_TMPDIR/fixed" 2> "$BATS_TEST_TMPDIR/mount" || skip "no right to mount a disk"
+    run "$LASTFLAT" serve --listen 127.0.0.1:0 --data "$BATS_TEST_TMPDIR/fixed/data"
+    umount "$BATS_TEST_TMPDIR/fixed"
+    [[ $status -ne 0 && $output == *"$BATS_TEST_TMPDIR/fixed/data"* ]]
+    [[ $output != *terminate* ]]
+}
+
 @test "a full disk refuses jobs, loses none, and the work goes on when there is room" {
     mkdir "$BATS_TEST_TMPDIR/small"
     mount -t tmpfs -o size=6m tmpfs "$BATS_TEST_TMPDIR/small" 2> "$BATS_TEST_TMPDIR/mount" || skip "no right to mount a small disk"
     DATA=$BATS_TEST_TMPDIR/small/data
-    start_server --workers 1
+    start_server --workers 1 --min-free-mb 4
+    ask -F "model=@$sample/last.glb" "$url/v1/jobs"
+    assert_equal "$status" 202
+    wait_until 20 has_ended_job "$(header location)"
+    dd if=/dev/zero of="$BATS_TEST_TMPDIR/small/ballast" bs=1k count=3000 2> "$BATS_TEST_TMPDIR/dd"
+    ask -F "model=@$sample/last.glb" "$url/v1/jobs"
+    assert_problem 507 storage_full
+    rm "$BATS_TEST_TMPDIR/small/ballast"
+    stop_servers
+    start_server --workers 1 --min-free-mb 0
     flatten "$sample/last.obj" "$sample/last.request.json"
     first=$job
     dd if=/dev/zero of="$BATS_TEST_TMPDIR/small/ballast" bs=1k 2> "$BATS_TEST_TMPDIR/dd" || true

@@ -76,7 +76,7 @@ keep_answer() {
 }
 teardown_file() {
     [[ -d $BATS_FILE_TMPDIR/answers ]] || return 0
-    echo "# $(ls "$BATS_FILE_TMPDIR/answers" | wc -l) answers are held against the contract" >&3; python3 "$BATS_TEST_DIRNAME/contract.py" --answers "$BATS_FILE_TMPDIR/answers" || (( $? == 77 ))
+    echo "# $(ls "$BATS_FILE_TMPDIR/answers" | wc -l) answers are held against the contract" >&3; python3 "$BATS_TEST_DIRNAME/contract_check.py" "$BATS_FILE_TMPDIR/answers" || (( $? == 77 ))
 }
 
 # header NAME: its value in the last answer.

@@ -111,6 +111,10 @@ private:
             if (request.header("authorization") != "no") return std::nullopt;
             return test_problem(401, "key_missing", "");
         };
+        hooks.origin_headers = [](std::string_view origin) {
+            return std::vector<std::pair<std::string, std::string>>{
+                {"X-Origin", std::string(origin)}};
+        };
         return hooks;
     }
 

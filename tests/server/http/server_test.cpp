@@ -214,6 +214,16 @@ TEST_SUITE("server/http/server") {
         }
     }
 
+    TEST_CASE("a web page may read why its request was refused") {
+        RunningServer server;
+        const std::string refused =
+            ask(server.port(),
+                "POST /echo HTTP/1.1\r\nHost: a\r\nOrigin: https://studio.example\r\n"
+                "Content-Length: 99999999999\r\n\r\n");
+        CHECK(status_of(refused) == 413);
+        CHECK(refused.find("X-Origin: https://studio.example\r\n") != std::string::npos);
+    }
+
     TEST_CASE("OPTIONS and 204 have neither body nor length") {
         RunningServer server;
         const std::string options = ask(server.port(), "OPTIONS /echo HTTP/1.1\r\nHost: a\r\n\r\n");

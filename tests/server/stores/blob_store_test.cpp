@@ -119,8 +119,14 @@ TEST_SUITE("server/stores/sqlite_accounts") {
         const lastflat::test::TemporaryFolder folder;
         SqliteDatabase database(folder.path() / "jobs.sqlite");
         SqliteAssets assets(database);
-        CHECK(assets.add("one", "digest", 7));
-        CHECK_FALSE(assets.add("one", "digest", 7));
+        const AssetLimits limits{10, 2};
+        CHECK(assets.add("one", "digest", 7, limits) == AssetAdmission::added);
+        CHECK(assets.add("one", "digest", 7, limits) == AssetAdmission::known);
+        CHECK(assets.add("one", "too long", 4, limits) == AssetAdmission::full);
+        CHECK(assets.add("one", "another", 3, limits) == AssetAdmission::added);
+        CHECK(assets.add("one", "a third", 0, limits) == AssetAdmission::full);
+        CHECK(assets.add("two", "too long", 4, limits) == AssetAdmission::added);
+        CHECK(assets.list("one").size() == 2);
         CHECK(assets.find("one", "digest")->bytes == 7);
         CHECK_FALSE(assets.find("two", "digest").has_value());
         CHECK_FALSE(assets.remove("two", "digest"));

@@ -1,0 +1,134 @@
+"""Services with other settings than the default's: keys, little room, webhooks, short retention."""
+
+import base64
+import json
+import subprocess
+import tempfile
+import time
+
+from contract_service import Server, Walk, bumpy_disk
+
+
+def walk_keys(program, contract, example):
+    """A service with keys: 401, 429, and what one key sees of another."""
+    with tempfile.TemporaryDirectory() as folder:
+        keys = [subprocess.run([program, "keys", "add", name, "--data", folder], check=True, capture_output=True,
+                               text=True).stdout.strip() for name in ("one", "two", "three")]
+        server = Server(program, "--rate", "150", "--queue-per-key", "2", "--workers", "1", "--streams", "4", "--data", folder)
+        try:
+            nobody = Walk(server, contract)
+            one, two, three = (Walk(server, contract, ["Authorization: Bearer " + key]) for key in keys)
+            for method, path, operation in contract.operations():
+                if "401" in operation["responses"]:
+                    nobody.expect(401, "key_missing" if method != "HEAD" else None, method, path)
+            Walk(server, contract, ["Authorization: Bearer " + keys[0] + "0"]).expect(401, "key_unknown", "GET", "/v1/jobs")
+            id = one.post(base64.b64decode(example["model"]["data"]), example["request"])
+            one.wait_for(id, "succeeded")
+            two.expect(404, "job_not_found", "GET", "/v1/jobs/{id}", id=id)
+            two.expect(404, "job_not_found", "DELETE", "/v1/jobs/{id}", id=id)
+            assert two.expect(200, None, "GET", "/v1/jobs")["items"] == []
+            slow = bumpy_disk(200)
+            one.wait_for(one.post(slow), "running")
+            for _ in range(2):
+                one.post(slow)
+            one.expect(429, "key_queue_full", "POST", "/v1/jobs", body=slow)
+            # One key's half of the places to wait: the other key still gets its own.
+            waiting = one.expect(200, None, "GET", "/v1/jobs", query="?state=queued")["items"][0]["id"]
+            streams = [server.open(f"GET /v1/jobs/{waiting}/events HTTP/1.1\r\nHost: x\r\n{one.headers[0]}\r\n\r\n".encode()) for _ in range(2)]
+            for stream in streams:
+                stream.recv(100)
+            one.expect(503, "streams_full", "GET", "/v1/jobs/{id}/events", id=waiting)
+            two.post(slow)
+            for _ in range(160):
+                three.ask("GET", "/v1/jobs/{id}")
+            for method, path, operation in contract.operations():
+                if "429" in operation["responses"]:
+                    three.expect(429, "rate_exceeded" if method != "HEAD" else None, method, path)
+            other = two.expect(200, None, "GET", "/v1/jobs")["items"][0]["id"]
+            with server.open(f"GET /v1/jobs/{other}/events HTTP/1.1\r\nHost: x\r\n{two.headers[0]}\r\n\r\n".encode()) as stream:
+                assert b" 200 " in stream.recv(100)
+            for stream in streams:
+                stream.close()
+            subprocess.run([program, "keys", "revoke", keys[1].split("_")[1], "--data", folder], check=True)
+            two.expect(401, "key_unknown", "GET", "/v1/jobs")
+        finally:
+            server.stop()
+
+
+def walk_webhooks(program, contract):
+    """Making, testing, seeing and dropping webhooks; what is sent is looked at by webhooks.bats."""
+    json_type = "Content-Type: application/json"
+    hook = b'{"url": "http://127.0.0.1:9/", "events": ["job.failed"]}'
+    server = Server(program)
+    try:
+        walk = Walk(server, contract)
+        walk.expect(403, "webhooks_off", "POST", "/v1/webhooks", headers=[json_type], body=hook)
+        walk.expect(403, "webhooks_off", "POST", "/v1/webhooks/{id}/test")
+    finally:
+        server.stop()
+    server = Server(program, "--webhooks", "public")
+    try:
+        walk = Walk(server, contract)
+        id = walk.expect(201, None, "POST", "/v1/webhooks", headers=[json_type], body=hook)["id"]
+        walk.expect(202, None, "POST", "/v1/webhooks/{id}/test", id=id)
+        end = time.monotonic() + 10
+        while not (sent := walk.expect(200, None, "GET", "/v1/webhooks/{id}/deliveries", id=id)["items"])[0].get("error"):
+            assert time.monotonic() < end, sent
+            time.sleep(0.05)
+        walk.expect(415, "media_type_unsupported", "POST", "/v1/webhooks", body=hook)
+        walk.expect(422, "invalid_request", "POST", "/v1/webhooks", headers=[json_type], body=b'{"url": "ftp://x/"}')
+        for _ in range(15):
+            walk.expect(201, None, "POST", "/v1/webhooks", headers=[json_type], body=hook)
+        walk.expect(422, "too_many_webhooks", "POST", "/v1/webhooks", headers=[json_type], body=hook)
+        for method in ("GET", "HEAD"):
+            walk.expect(200, None, method, "/v1/webhooks")
+            for path in ("/v1/webhooks/{id}", "/v1/webhooks/{id}/deliveries"):
+                walk.expect(200, None, method, path, id=id)
+                walk.expect(404, "webhook_not_found" if method == "GET" else None, method, path)
+        walk.expect(404, "webhook_not_found", "POST", "/v1/webhooks/{id}/test")
+        walk.expect(204, None, "DELETE", "/v1/webhooks/{id}", id=id)
+        walk.expect(404, "webhook_not_found", "DELETE", "/v1/webhooks/{id}", id=id)
+    finally:
+        server.stop()
+
+
+def walk_room(program, contract):
+    """Assets without end, and a disk without room."""
+    server = Server(program, "--assets-per-key-mb", "1")
+    try:
+        walk = Walk(server, contract)
+        model = b"v 0 0 0\n" * 75_000
+        walk.expect(201, None, "POST", "/v1/assets", body=model)
+        walk.expect(507, "assets_full", "POST", "/v1/assets", body=b"#" + model)
+        assert len(walk.expect(200, None, "GET", "/v1/assets")["items"]) == 1
+    finally:
+        server.stop()
+    server = Server(program, "--min-free-mb", str(1 << 24))
+    try:
+        walk = Walk(server, contract)
+        walk.expect(507, "storage_full", "POST", "/v1/jobs", body=b"v 0 0 0\n")
+        walk.expect(507, "storage_full", "PUT", "/v1/jobs/{id}", id="0f8fad5b-d9cb-469f-a165-70867728950e", body=b"v 0 0 0\n")
+        walk.expect(507, "storage_full", "POST", "/v1/assets", body=b"v 0 0 0\n")
+    finally:
+        server.stop()
+
+
+def walk_expiry(program, contract, example):
+    """A service that keeps results for a second and jobs for two."""
+    server = Server(program, "--keep-results", "1s", "--keep-jobs", "3s", "--streams", "0")
+    try:
+        walk = Walk(server, contract)
+        id = walk.post(base64.b64decode(example["model"]["data"]), example["request"])
+        for method in ("GET", "HEAD"):
+            walk.expect(503, "streams_full" if method == "GET" else None, method, "/v1/jobs/{id}/events", id=id)
+        end = time.monotonic() + 10
+        while (answer := walk.ask("GET", "/v1/jobs/{id}/result", id=id))[0] != 410 and time.monotonic() < end:
+            time.sleep(0.1)
+        assert answer[1]["code"] == "result_expired", answer
+        while walk.ask("GET", "/v1/jobs/{id}", id=id)[0] != 410 and time.monotonic() < end:
+            time.sleep(0.1)
+        for method, path, operation in contract.operations():
+            if "410" in operation["responses"]:
+                walk.expect(410, "job_expired" if method != "HEAD" else None, method, path, id=id)
+    finally:
+        server.stop()
