@@ -125,7 +125,10 @@ MethodRequest read_method(const Field& field) {
 
 void read_surface(ObjectReader& reader, const RequestLimits& limits, FlattenRequest& request) {
     if (const auto units = reader.find("units")) {
-        request.units = static_cast<Unit>(units->choice(unit_names()));
+        if (units->value.is_number())
+            request.unit_mm = units->number(1e-6, 1e6);
+        else
+            request.units = static_cast<Unit>(units->choice(unit_names()));
     }
     if (const auto surface = reader.find("surface")) {
         ObjectReader inner(*surface);
@@ -135,11 +138,12 @@ void read_surface(ObjectReader& reader, const RequestLimits& limits, FlattenRequ
     }
     if (const auto weld = reader.find("weld")) {
         ObjectReader inner(*weld);
-        if (const auto tolerance = inner.find("tolerance_mm")) {
+        if (const auto tolerance = inner.find("tolerance_mm"))
             request.weld_tolerance_mm = tolerance->number(0.0, 1.0);
-        } else {
-            weld->fail("must have \"tolerance_mm\"");
-        }
+        if (const auto stitch = inner.find("stitch_mm"))
+            request.stitch_mm = stitch->number(0.0, 2.0);
+        if (!request.weld_tolerance_mm && !request.stitch_mm)
+            weld->fail("must have \"tolerance_mm\" or \"stitch_mm\"");
         inner.finish();
     }
 }

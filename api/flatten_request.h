@@ -97,8 +97,9 @@ struct MethodRequest {
 /// Lengths in mm; vertex ids from 0, in file order.
 struct FlattenRequest {
     std::optional<Unit> units;
+    std::optional<double> unit_mm;            ///< "units" as a number: one unit of the model
     std::vector<std::string> surface_groups;  ///< empty: every face
-    std::optional<double> weld_tolerance_mm;
+    std::optional<double> weld_tolerance_mm, stitch_mm;
     std::vector<std::pair<std::string, PlaceRequest>> points;
     std::vector<CurveRequest> curves;
     std::vector<std::string> cuts;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "api/repair_json.h"
+
 namespace lastflat::api {
 namespace {
 
@@ -190,6 +192,7 @@ Json rest_of(const FlattenResult& result, bool with_geometry) {
                               {"placements", std::move(placements)}};
     }
     document["warnings"] = std::move(warnings);
+    document["repairs"] = repairs_json(result.repairs);
     document["timing_ms"] = {{"load", result.load_ms},
                              {"cut", result.cut_ms},
                              {"parameterize", result.parameterize_ms},
@@ -209,6 +212,17 @@ std::string text_of(const FlattenResult& result, bool with_geometry) {
 }
 
 }  // namespace
+
+Json repairs_json(const std::vector<RepairResult>& repairs) {
+    Json list = Json::array();
+    for (const RepairResult& repair : repairs) {
+        list.push_back({{"code", repair.code},
+                        {"count", repair.count},
+                        {"detail", repair.detail},
+                        {"positions", repair.positions}});
+    }
+    return list;
+}
 
 std::string to_json(const FlattenResult& result) {
     return text_of(result, true);

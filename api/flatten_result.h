@@ -99,6 +99,12 @@ struct PlacementResult {
     bool mirrored;
 };
 
+struct RepairResult {
+    std::string code, detail;
+    std::uint64_t count = 0;
+    std::vector<std::array<double, 3>> positions;
+};
+
 struct WarningResult {
     std::string code, detail;
     std::optional<Place> position;
@@ -111,6 +117,7 @@ struct FlattenResult {
     double width_mm = 0.0, height_mm = 0.0;
     std::vector<PlacementResult> placements;
     std::vector<WarningResult> warnings;
+    std::vector<RepairResult> repairs;
     double load_ms = 0.0, cut_ms = 0.0, parameterize_ms = 0.0, constrain_ms = 0.0, total_ms = 0.0;
     std::string version;
 };

@@ -241,6 +241,7 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& asked, Progr
     progress.reach(Stage::weld, 0.1);
     SurfaceMesh surface = weld(raw, options.weld);
     result.warnings = std::move(surface.warnings);
+    result.repairs = std::move(surface.repairs);
     name_welded_vertices(surface, options);
 
     progress.reach(Stage::cut, 0.2);

@@ -60,6 +60,7 @@ struct FlattenResult {
     std::vector<ConstraintReport> constraints;  ///< of what was asked
     Sheet sheet;
     std::vector<Warning> warnings;
+    std::vector<Repair> repairs;  ///< what was changed in the model before
     Timing timing;
     bool draw_fan = false;
 };

@@ -89,9 +89,10 @@ Inspection inspect(std::string_view model, const FlattenOptions& asked) {
     found.file_vertices = raw.positions.size();
     found.file_triangles = raw.triangles.size();
     found.groups = count_groups(raw);
-    found.unit_mm = options.weld.unit_mm.value_or(raw.default_unit_mm);
     const SurfaceMesh surface = weld(raw, options.weld);
+    found.unit_mm = surface.unit_mm;
     found.warnings = surface.warnings;
+    found.repairs = surface.repairs;
     measure_surface(surface.mesh, found);
     name_welded_vertices(surface, options);
     try {

@@ -28,6 +28,7 @@ struct Inspection {
     std::vector<InspectedRegion> regions;
     std::optional<Error> fault;  ///< why it cannot be cut into regions as asked
     std::vector<Warning> warnings;
+    std::vector<Repair> repairs;
 };
 
 /// Runs the stages before the flattening.

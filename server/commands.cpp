@@ -9,6 +9,7 @@
 #include "core/export/write_model.h"
 #include "server/problem_map.h"
 #include "server/translate.h"
+#include "server/worker/inspect_job.h"
 #include "server/worker/run_job.h"
 
 namespace lastflat::server {
@@ -87,27 +88,46 @@ std::string sample_request(const SampleLast& last) {
     return request.dump() + "\n";
 }
 
+/// The files of a job, or why they cannot be used.
+std::optional<api::Problem> read_input(const fs::path& model,
+                                       const std::optional<fs::path>& request,
+                                       std::optional<JobInput>& input) {
+    auto bytes = file_bytes(model);
+    if (!bytes) return file_problem(404, "cannot read the model " + model.string());
+    std::optional<std::string> constraints = request ? file_bytes(*request) : std::string();
+    if (!constraints) return file_problem(404, "cannot read the request " + request->string());
+    try {
+        const auto wire = api::flatten_request_from_json(*constraints);
+        input = JobInput{std::move(*bytes), to_options(wire)};
+    } catch (const api::InvalidRequest& error) {
+        return problem_of(error);
+    } catch (const Error& error) {
+        return problem_of(error);
+    }
+    return std::nullopt;
+}
+
 }  // namespace
+
+int inspect_command(const fs::path& model, const std::optional<fs::path>& request) {
+    std::optional<JobInput> input;
+    if (const auto problem = read_input(model, request, input)) return report(*problem);
+    const nlohmann::ordered_json found = inspect_job(*input);
+    if (const auto problem = found.find("problem"); problem != found.end()) {
+        std::cerr << problem->dump() << std::endl;
+        return problem->at("status").get<int>() < 500 ? 2 : 1;
+    }
+    std::cout << found.at("report").dump(2) << std::endl;
+    return 0;
+}
 
 int flatten_command(const fs::path& model, const std::optional<fs::path>& request,
                     const fs::path& directory) {
-    auto bytes = file_bytes(model);
-    if (!bytes) return report(file_problem(404, "cannot read the model " + model.string()));
-    std::optional<std::string> constraints = request ? file_bytes(*request) : std::string();
-    if (!constraints)
-        return report(file_problem(404, "cannot read the request " + request->string()));
-    JobInput input;
-    try {
-        const auto wire = api::flatten_request_from_json(*constraints);
-        input = {std::move(*bytes), to_options(wire)};
-    } catch (const api::InvalidRequest& error) {
-        return report(problem_of(error));
-    } catch (const Error& error) {
-        return report(problem_of(error));
-    }
-    input.options.threads = std::max(1u, std::thread::hardware_concurrency());
+    std::optional<JobInput> input;
+    if (const auto problem = read_input(model, request, input)) return report(*problem);
+    input->options.threads = std::max(1u, std::thread::hardware_concurrency());
     Progress progress;
-    const RunOutcome outcome = run_job(input, Compression::none, progress);
+    const RunOutcome outcome = run_job(*input, Compression::none, progress);
     if (!outcome.output) return report(outcome.error.value());
     return write_or_report(directory, {{"result.json", outcome.output->json.bytes},
                                        {"flat.obj", outcome.output->obj.bytes},

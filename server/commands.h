@@ -15,6 +15,11 @@ namespace lastflat::server {
                                   const std::optional<std::filesystem::path>& request,
                                   const std::filesystem::path& directory);
 
+/// Prints what the model is and what was mended in it, as `POST /v1/validate` answers. Exit codes
+/// as above.
+[[nodiscard]] int inspect_command(const std::filesystem::path& model,
+                                  const std::optional<std::filesystem::path>& request);
+
 /// Writes DIR/last.obj, last.glb and last.request.json. Exit codes as above.
 [[nodiscard]] int sample_last_command(const SampleLastOptions& options,
                                       const std::filesystem::path& directory);

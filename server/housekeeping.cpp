@@ -8,7 +8,7 @@ namespace lastflat::server {
 namespace {
 
 constexpr std::chrono::seconds interval{1};
-constexpr std::size_t sweeps_between_slow_looks = 30;
+constexpr std::size_t sweeps_between_trims = 5, sweeps_between_slow_looks = 30;
 
 }  // namespace
 
@@ -34,6 +34,8 @@ Housekeeping::~Housekeeping() {
 }
 
 void Housekeeping::sweep() {
+    // What a burst of large bodies left behind goes back to the system.
+    if (sweeps_ % sweeps_between_trims == 0) malloc_trim(0);
     try {
         if (sweeps_++ % sweeps_between_slow_looks == 0) look_slowly();
         const Swept swept = service_.jobs.sweep(false, worker_lost_problem());
@@ -50,8 +52,6 @@ void Housekeeping::sweep() {
 }
 
 void Housekeeping::look_slowly() {
-    // What a burst of large bodies left behind goes back to the system.
-    malloc_trim(0);
     service_.metrics.set("lastflat_stored_bytes", static_cast<double>(service_.blobs.bytes()));
     service_.metrics.set("lastflat_disk_free_bytes",
                          static_cast<double>(service_.blobs.free_bytes()));

@@ -150,9 +150,16 @@ std::map<const CLI::App*, std::function<int()>> add_operator_commands(CLI::App& 
     return commands;
 }
 
+CLI::App* add_inspect(CLI::App& app, Arguments& a) {
+    auto* inspect = app.add_subcommand("inspect", "Say what a model is and what is wrong with it");
+    inspect->add_option("MODEL", a.model, "The last: OBJ, STL, PLY, glTF or GLB")->required();
+    inspect->add_option("--request", a.request, "The constraint JSON; default: every default");
+    return inspect;
+}
+
 CLI::App* add_flatten(CLI::App& app, Arguments& a) {
     auto* flatten = app.add_subcommand("flatten", "Flatten one last without a server");
-    flatten->add_option("MODEL", a.model, "The last: OBJ, glTF or GLB")->required();
+    flatten->add_option("MODEL", a.model, "The last: OBJ, STL, PLY, glTF or GLB")->required();
     flatten->add_option("--request", a.request, "The constraint JSON; default: every default");
     flatten->add_option("--out", a.out, "Folder for result.json, flat.obj, flat.glb, pattern.svg")
         ->required();
@@ -184,6 +191,7 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     const auto* serve = add_serve(app, a);
     const auto* flatten = add_flatten(app, a);
+    const auto* inspect = add_inspect(app, a);
     const auto* sample = add_sample_last(app, a);
     const auto operator_commands = add_operator_commands(app, a);
     try {
@@ -196,12 +204,10 @@ int run(int argc, char** argv) {
     for (const auto& [command, execute] : operator_commands) {
         if (command->parsed()) return execute();
     }
-    if (flatten->parsed()) {
-        return server::flatten_command(
-            a.model,
-            a.request.empty() ? std::nullopt : std::optional<std::filesystem::path>(a.request),
-            a.out);
-    }
+    const auto request =
+        a.request.empty() ? std::nullopt : std::optional<std::filesystem::path>(a.request);
+    if (flatten->parsed()) return server::flatten_command(a.model, request, a.out);
+    if (inspect->parsed()) return server::inspect_command(a.model, request);
     if (sample->parsed()) return server::sample_last_command(a.sample, a.out);
     if (serve->parsed()) server::serve(a.settings);
     return 0;

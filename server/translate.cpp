@@ -251,8 +251,10 @@ api::RegionResult to_wire(const FlatRegion& flat, MethodName method) {
 FlattenOptions to_options(const api::FlattenRequest& request) {
     FlattenOptions options;
     if (request.units) options.weld.unit_mm = millimetres(*request.units);
+    if (request.unit_mm) options.weld.unit_mm = request.unit_mm;
     options.weld.groups = request.surface_groups;
     options.weld.tolerance_mm = request.weld_tolerance_mm;
+    options.weld.stitch_mm = request.stitch_mm;
     for (const auto& curve : request.curves) options.curves.push_back(curve_of(curve));
     options.cut.cuts = request.cuts;
     for (const auto& region : request.regions) {
@@ -277,6 +279,16 @@ FlattenOptions to_options(const api::FlattenRequest& request) {
     return options;
 }
 
+std::vector<api::RepairResult> to_wire(const std::vector<Repair>& repairs) {
+    std::vector<api::RepairResult> wire;
+    for (const Repair& repair : repairs) {
+        wire.push_back({repair.code, repair.detail, repair.count, {}});
+        for (const Vec3& position : repair.positions)
+            wire.back().positions.push_back(to_wire(position));
+    }
+    return wire;
+}
+
 api::FlattenResult to_wire(const FlattenResult& result) {
     api::FlattenResult wire;
     for (const auto& flat : result.regions) wire.regions.push_back(to_wire(flat, result.method));
@@ -294,6 +306,7 @@ api::FlattenResult to_wire(const FlattenResult& result) {
                                    {p.translation.x(), p.translation.y()},
                                    p.mirrored});
     }
+    wire.repairs = to_wire(result.repairs);
     for (const auto& w : result.warnings) {
         wire.warnings.push_back({w.code, w.detail, std::nullopt});
         if (w.position) wire.warnings.back().position = to_wire(*w.position);

@@ -11,5 +11,6 @@ namespace lastflat::server {
 [[nodiscard]] FlattenOptions to_options(const api::FlattenRequest& request);
 
 [[nodiscard]] api::FlattenResult to_wire(const FlattenResult& result);
+[[nodiscard]] std::vector<api::RepairResult> to_wire(const std::vector<Repair>& repairs);
 
 }  // namespace lastflat::server

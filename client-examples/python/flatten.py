@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Flattens a last: sends it, waits, saves the pattern and prints what became of every curve.
 
-    flatten.py LAST [REQUEST]      LAST: OBJ, glTF or GLB; REQUEST: the constraint JSON
+    flatten.py LAST [REQUEST]      LAST: OBJ, STL, PLY, glTF or GLB; REQUEST: the constraint JSON
 
 LASTFLAT_URL  the server; default http://127.0.0.1:8080
 LASTFLAT_KEY  the API key, if the server asks for one

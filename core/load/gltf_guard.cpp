@@ -1,5 +1,7 @@
 #include "core/load/gltf_guard.h"
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 namespace lastflat {
@@ -43,13 +45,13 @@ void guard_extensions(const Json& document) {
                    "extensionsRequired holds something else than names");
         }
         const auto name = extension.get<std::string>();
-        if (name == "KHR_mesh_quantization" || name == "KHR_materials_unlit" ||
-            name == "KHR_texture_transform") {
-            continue;
-        }
+        constexpr std::array<std::string_view, 5> known{
+            "KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
+            "KHR_materials_unlit", "KHR_texture_transform"};
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
         refuse(ErrorCode::unsupported_model,
                "requires the extension " + name.substr(0, 80) +
-                   ", which this version does not read; export without compression");
+                   ", which this version does not read; export without it");
     }
 }
 

@@ -2,6 +2,8 @@
 
 #include "core/load/read_gltf.h"
 #include "core/load/read_obj.h"
+#include "core/load/read_ply.h"
+#include "core/load/read_stl.h"
 
 namespace lastflat {
 namespace {
@@ -19,28 +21,10 @@ char first_visible(std::string_view bytes) {
     return i == std::string_view::npos ? '\0' : bytes[i];
 }
 
-/// Binary STL has no magic number: the count at byte 80 must fit the size.
-bool is_binary_stl(std::string_view bytes) {
-    if (bytes.size() < 84) return false;
-    std::uint64_t count = 0;
-    for (std::size_t i = 4; i-- > 0;) {
-        count = count * 256 + static_cast<unsigned char>(bytes[80 + i]);
-    }
-    return bytes.size() == 84 + count * 50;
-}
-
-bool is_text_stl(std::string_view bytes) {
-    constexpr std::string_view word = "solid";
-    return starts_with(bytes, word) && bytes.size() > word.size() &&
-           std::string_view(" \t\r\n").find(bytes[word.size()]) != std::string_view::npos;
-}
-
 /// The name of a known format that is not read, or nothing.
 std::string_view unread_format(std::string_view bytes) {
     if (starts_with(bytes, "\xFF\xFE") || starts_with(bytes, "\xFE\xFF")) return "UTF-16 text";
-    if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return "PLY";
     if (starts_with(bytes, "OFF") || starts_with(bytes, "COFF")) return "OFF";
-    if (is_binary_stl(bytes) || is_text_stl(bytes)) return "STL";
     if (starts_with(bytes, "PK\x03\x04")) return "ZIP";
     if (starts_with(bytes, "\x1F\x8B")) return "gzip";
     if (starts_with(bytes, "ISO-10303-21")) return "STEP";
@@ -56,10 +40,12 @@ RawMesh load_model(std::string_view bytes, const LoadLimits& limits) {
     if (const auto format = unread_format(bytes); !format.empty()) {
         throw Error(ErrorCode::unsupported_model,
                     "the model is " + std::string(format) +
-                        ", which this version does not read; send OBJ, glTF or GLB");
+                        ", which this version does not read; send OBJ, STL, PLY, glTF or GLB");
     }
     const std::string_view text = without_byte_order_mark(bytes);
     if (first_visible(text) == '{') return read_gltf(text, limits);
+    if (starts_with(text, "ply\n") || starts_with(text, "ply\r")) return read_ply(text, limits);
+    if (is_stl(text)) return read_stl(text, limits);
     return read_obj(text, limits);
 }
 

@@ -20,12 +20,13 @@ struct LoadLimits {
     std::size_t json_depth = 64;         ///< nesting inside glTF
 };
 
-/// Reads a model: Wavefront OBJ, glTF 2.0 or binary glTF (GLB). The content decides the format.
+/// Reads a model: Wavefront OBJ, STL, PLY, glTF 2.0 or binary glTF (GLB). The content decides the
+/// format.
 ///
 /// In:     the file's bytes; nothing outside them is ever opened.
 /// Out:    positions in the model's unit, triangles, group names. Ids as in `RawMesh`.
 /// Throws: Error{unreadable_model, unsupported_model, model_too_large, mesh_degenerate}, naming the
-///         line (OBJ) or the accessor, node, extension or file (glTF).
+///         line (text formats) or the accessor, node, extension or file (glTF).
 [[nodiscard]] RawMesh load_model(std::string_view bytes, const LoadLimits& limits = {});
 
 }  // namespace lastflat

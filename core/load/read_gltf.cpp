@@ -1,101 +1,17 @@
-// The only file that sees tinygltf. It checks structure, not contents: every accessor is checked
-// here before it is read.
 #include "core/load/read_gltf.h"
 
 #include <Eigen/Geometry>
-#include <cstring>
 #include <map>
 
+#include "core/load/gltf_accessor.h"
 #include "core/load/gltf_guard.h"
-
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#include <tiny_gltf.h>
-#pragma GCC diagnostic pop
+#include "core/load/gltf_unpack.h"
 
 namespace lastflat {
+
+using namespace gltf;
+
 namespace {
-
-[[noreturn]] void fail(const std::string& what, ErrorCode code = ErrorCode::unreadable_model) {
-    throw Error(code, "glTF: " + what);
-}
-
-template <class List>
-const auto& item(const List& list, int index, const char* what) {
-    if (index < 0 || static_cast<std::size_t>(index) >= list.size()) {
-        fail(std::string(what) + " " + std::to_string(index) + " does not exist");
-    }
-    return list[static_cast<std::size_t>(index)];
-}
-
-/// A checked window on the bytes of an accessor: element i begins at `bytes + i * stride`.
-struct Elements {
-    const unsigned char* bytes;
-    std::size_t stride, count;
-    int component_type;
-    bool normalized;
-};
-
-Elements checked_elements(const tinygltf::Model& model, int index, int type) {
-    const auto& accessor = item(model.accessors, index, "accessor");
-    const std::string name = "accessor " + std::to_string(index);
-    if (accessor.type != type) fail(name + " has the wrong type");
-    if (accessor.sparse.isSparse) {
-        fail(name + " is sparse, which this version does not read for positions and indices",
-             ErrorCode::unsupported_model);
-    }
-    const auto& view = item(model.bufferViews, accessor.bufferView, "bufferView");
-    const auto& buffer = item(model.buffers, view.buffer, "buffer");
-    const int component =
-        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
-    const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
-    if (component <= 0 || components <= 0) fail(name + " has an unknown component type");
-    const auto size = static_cast<std::size_t>(component) * static_cast<std::size_t>(components);
-    const std::size_t stride = view.byteStride != 0 ? view.byteStride : size;
-    if (accessor.count == 0) fail(name + " is empty");
-    const std::size_t data = buffer.data.size();
-    const bool fits =
-        view.byteOffset <= data && view.byteLength <= data - view.byteOffset &&
-        accessor.byteOffset <= view.byteLength && size <= view.byteLength - accessor.byteOffset &&
-        stride >= size &&
-        (accessor.count - 1) <= (view.byteLength - accessor.byteOffset - size) / stride;
-    if (!fits) fail(name + " reaches past the end of its buffer");
-    return {buffer.data.data() + view.byteOffset + accessor.byteOffset, stride, accessor.count,
-            accessor.componentType, accessor.normalized};
-}
-
-template <class T>
-double component(const unsigned char* at, bool normalized) {
-    T value;
-    std::memcpy(&value, at, sizeof value);
-    if constexpr (std::is_integral_v<T>) {
-        if (normalized) {  // glTF 2.0, 3.11: signed values clamp at -1
-            return std::max(
-                static_cast<double>(value) / static_cast<double>(std::numeric_limits<T>::max()),
-                -1.0);
-        }
-    }
-    return static_cast<double>(value);
-}
-
-double read_component(const Elements& elements, std::size_t element, std::size_t i) {
-    const unsigned char* at = elements.bytes + element * elements.stride;
-    switch (elements.component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return component<std::int8_t>(at + i, elements.normalized);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return component<std::uint8_t>(at + i, elements.normalized);
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return component<std::int16_t>(at + 2 * i, elements.normalized);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return component<std::uint16_t>(at + 2 * i, elements.normalized);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return component<std::uint32_t>(at + 4 * i, false);
-        case TINYGLTF_COMPONENT_TYPE_FLOAT: return component<float>(at + 4 * i, false);
-        default: fail("component type " + std::to_string(elements.component_type) + " is not read");
-    }
-}
 
 class SceneReader {
 public:
@@ -226,28 +142,37 @@ private:
         }
     }
 
-    /// Returns the id of the first vertex and their number.
-    std::pair<Index, std::size_t> read_positions(int accessor, const Eigen::Affine3d& transform) {
-        const auto elements = checked_elements(model_, accessor, TINYGLTF_TYPE_VEC3);
-        if (const auto known = bases_.find(accessor); known != bases_.end()) {
-            return {known->second, elements.count};
-        }
-        if (elements.count > limits_.vertices - mesh_.positions.size()) {
+    template <class PositionAt>
+    Index add_positions(std::size_t count, const std::string& what, PositionAt position_at,
+                        const Eigen::Affine3d& transform) {
+        if (count > limits_.vertices - mesh_.positions.size()) {
             fail("more than " + std::to_string(limits_.vertices) + " vertices",
                  ErrorCode::model_too_large);
         }
         const auto base = static_cast<Index>(mesh_.positions.size());
-        for (std::size_t i = 0; i < elements.count; ++i) {
-            const Vec3 local(read_component(elements, i, 0), read_component(elements, i, 1),
-                             read_component(elements, i, 2));
-            const Vec3 position = transform * local;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec3 position = transform * position_at(i);
             if (!position.allFinite()) {
-                fail("vertex " + std::to_string(i) + " of accessor " + std::to_string(accessor) +
-                         " is not finite",
+                fail("vertex " + std::to_string(i) + " of " + what + " is not finite",
                      ErrorCode::mesh_degenerate);
             }
             mesh_.positions.push_back(position);
         }
+        return base;
+    }
+
+    /// Returns the id of the first vertex and their number.
+    std::pair<Index, std::size_t> read_positions(int accessor, const Eigen::Affine3d& transform) {
+        const auto elements = elements_of(model_, accessor, TINYGLTF_TYPE_VEC3, limits_.vertices);
+        if (const auto known = bases_.find(accessor); known != bases_.end()) {
+            return {known->second, elements.count};
+        }
+        const Index base = add_positions(
+            elements.count, "accessor " + std::to_string(accessor),
+            [&](std::size_t i) {
+                return Vec3(elements.at(i, 0), elements.at(i, 1), elements.at(i, 2));
+            },
+            transform);
         bases_[accessor] = base;
         return {base, elements.count};
     }
@@ -259,19 +184,16 @@ private:
             return corners;
         }
         any_indices_ = true;
-        const auto elements = checked_elements(model_, accessor, TINYGLTF_TYPE_SCALAR);
+        const auto elements =
+            elements_of(model_, accessor, TINYGLTF_TYPE_SCALAR, 3 * limits_.triangles + 2);
         if (elements.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT ||
             elements.component_type == TINYGLTF_COMPONENT_TYPE_BYTE ||
             elements.component_type == TINYGLTF_COMPONENT_TYPE_SHORT) {
             fail("accessor " + std::to_string(accessor) +
                  " holds indices of a type that has a sign");
         }
-        if (elements.count / 3 > limits_.triangles) {
-            fail("more than " + std::to_string(limits_.triangles) + " triangles",
-                 ErrorCode::model_too_large);
-        }
         for (std::size_t i = 0; i < elements.count; ++i) {
-            const double index = read_component(elements, i, 0);
+            const double index = elements.at(i, 0);
             if (index >= static_cast<double>(count)) {
                 fail("index " + std::to_string(static_cast<std::uint64_t>(index)) +
                      " of accessor " + std::to_string(accessor) + " is past its " +
@@ -358,11 +280,16 @@ RawMesh read_with_tinygltf(std::string_view bytes, bool binary, const LoadLimits
 
 RawMesh read_gltf(std::string_view text, const LoadLimits& limits) {
     guard_gltf(text, limits);
+    if (is_packed_gltf(text))
+        fail("compressed data are read in GLB only; send the model as GLB",
+             ErrorCode::unsupported_model);
     return read_with_tinygltf(text, false, limits);
 }
 
 RawMesh read_glb(std::string_view bytes, const LoadLimits& limits) {
-    guard_gltf(json_chunk(bytes), limits);
+    const std::string_view json = json_chunk(bytes);
+    guard_gltf(json, limits);
+    if (is_packed_gltf(json)) return read_with_tinygltf(unpack_glb(bytes, limits), true, limits);
     return read_with_tinygltf(bytes, true, limits);
 }
 

@@ -1,42 +1,11 @@
 #include "core/weld/check_manifold.h"
 
-#include <algorithm>
-
 #include "core/error.h"
 #include "core/numerics/disjoint_sets.h"
+#include "core/weld/sides.h"
 
 namespace lastflat {
 namespace {
-
-/// One side of a triangle, filed under its edge.
-struct Side {
-    Index low, high;  ///< the edge's vertices
-    Index triangle;
-    Index corner;  ///< the corner where the side begins
-    bool forward;  ///< runs from low to high
-
-    [[nodiscard]] bool same_edge(const Side& other) const {
-        return low == other.low && high == other.high;
-    }
-};
-
-std::vector<Side> sides_by_edge(const std::vector<Triangle>& triangles) {
-    std::vector<Side> sides;
-    sides.reserve(3 * triangles.size());
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Index a = triangles[t][i], b = triangles[t][(i + 1) % 3];
-            sides.push_back({std::min(a, b), std::max(a, b), static_cast<Index>(t),
-                             static_cast<Index>(i), a < b});
-        }
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
-        if (x.low != y.low) return x.low < y.low;
-        if (x.high != y.high) return x.high < y.high;
-        return x.triangle < y.triangle;
-    });
-    return sides;
-}
 
 [[noreturn]] void fail(ErrorCode code, const std::string& what, const Vec3& position) {
     throw Error(code, what + " at " + place(position)).at_position(position);

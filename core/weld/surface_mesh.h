@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/numerics/types.h"
+#include "core/weld/repair.h"
 
 namespace lastflat {
 
@@ -23,6 +24,8 @@ struct SurfaceMesh {
     TriMesh mesh;
     std::vector<Index> welded_to;  ///< per id of the file, the id that stands for it
     std::vector<Warning> warnings;
+    std::vector<Repair> repairs;
+    double unit_mm = 1.0;  ///< one unit of the model
 
     [[nodiscard]] Vec3 position(Index vertex) const {
         const auto& p = mesh.point(OpenMesh::VertexHandle(vertex));

@@ -5,9 +5,12 @@
 #include <map>
 #include <set>
 
+#include "core/numerics/disjoint_sets.h"
 #include "core/numerics/tolerances.h"
 #include "core/weld/check_manifold.h"
+#include "core/weld/guess_unit.h"
 #include "core/weld/merge_vertices.h"
+#include "core/weld/stitch.h"
 
 namespace lastflat {
 namespace {
@@ -47,27 +50,6 @@ std::vector<Triangle> selected_triangles(const RawMesh& raw,
         if (wanted[raw.triangle_labels[t]]) result.push_back(raw.triangles[t]);
     }
     return result;
-}
-
-void rename(std::vector<Triangle>& triangles, const std::vector<Index>& welded_to) {
-    for (Triangle& triangle : triangles) {
-        for (Index& vertex : triangle) vertex = welded_to[static_cast<std::size_t>(vertex)];
-    }
-}
-
-/// A triangle that names a vertex twice covers nothing and joins nothing: it can go.
-void drop_collapsed(std::vector<Triangle>& triangles, std::vector<Warning>& warnings) {
-    const auto collapsed = [](const Triangle& t) {
-        return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-    };
-    const auto kept = std::remove_if(triangles.begin(), triangles.end(), collapsed);
-    const auto dropped = triangles.end() - kept;
-    if (dropped == 0) return;
-    triangles.erase(kept, triangles.end());
-    warnings.push_back(
-        {"faces_dropped",
-         std::to_string(dropped) + " triangles that name a vertex twice were left out",
-         std::nullopt});
 }
 
 void check_shapes(const Points3& positions, const std::vector<Triangle>& triangles) {
@@ -130,38 +112,95 @@ TriMesh build(const Points3& positions, const std::vector<Triangle>& triangles) 
     return mesh;
 }
 
+double size_of(const Faces& faces) {
+    Eigen::AlignedBox3d box;
+    for (const Triangle& t : faces.triangles) {
+        for (const Index v : t) box.extend(faces.position(v));
+    }
+    return box.isEmpty() ? 0.0 : box.diagonal().norm();
+}
+
+void merge_places(const RawMesh& raw, const WeldOptions& options, Faces& faces) {
+    if (options.tolerance_mm || !raw.indexed) {
+        faces.welded_to = merge_vertices(
+            faces.positions, options.tolerance_mm.value_or(same_place * size_of(faces)));
+        faces.rename();
+    } else {
+        faces.welded_to = each_for_itself(faces.positions.size());
+    }
+}
+
+std::size_t count_pieces(const Faces& faces) {
+    DisjointSets pieces(faces.positions.size());
+    std::set<Index> roots;
+    for (const Triangle& t : faces.triangles) {
+        pieces.join(t[0], t[1]);
+        pieces.join(t[0], t[2]);
+    }
+    for (const Triangle& t : faces.triangles) roots.insert(pieces.find(t[0]));
+    return roots.size();
+}
+
+void stitch_borders(double tolerance, Faces& faces, std::vector<Repair>& repairs) {
+    stitch(faces, tolerance, repairs);
+    clean_faces(faces, repairs);
+    wind_alike(faces, repairs);
+}
+
+/// Several pieces that stitching makes one closed model were meant as one; a pair of flat halves,
+/// or a slit, was not.
+void close_borders(const WeldOptions& options, Faces& faces, std::vector<Repair>& repairs) {
+    if (options.stitch_mm) {
+        if (*options.stitch_mm > 0.0) stitch_borders(*options.stitch_mm, faces, repairs);
+        return;
+    }
+    if (is_closed(faces.triangles) || count_pieces(faces) < 2) return;
+    Faces closed = faces;
+    std::vector<Repair> done = repairs;
+    stitch_borders(near_border * size_of(faces), closed, done);
+    if (!is_closed(closed.triangles)) return;
+    faces = std::move(closed);
+    repairs = std::move(done);
+}
+
+/// The whole model decides, also where only a part of it takes part.
+void turn_outward(const RawMesh& raw, Faces& faces, std::vector<Repair>& repairs) {
+    Faces all{faces.positions, raw.triangles, faces.welded_to};
+    all.rename();
+    const auto& closed = is_closed(faces.triangles) ? faces.triangles : all.triangles;
+    if (!is_closed(closed) || signed_volume(faces.positions, closed) >= 0.0) return;
+    for (Triangle& t : faces.triangles) std::swap(t[1], t[2]);
+    repairs.push_back({"orientation_reversed",
+                       "all faces of the closed model point inward; they were turned",
+                       faces.triangles.size()});
+}
+
 }  // namespace
 
 SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options) {
     SurfaceMesh result;
-    const double unit = options.unit_mm.value_or(raw.default_unit_mm);
-    Points3 positions(raw.positions.size());
-    std::transform(raw.positions.begin(), raw.positions.end(), positions.begin(),
-                   [unit](const Vec3& p) -> Vec3 { return unit * p; });
-
-    auto triangles = selected_triangles(raw, options.groups);
-    check_coordinates(positions);
-    auto all = raw.triangles;
-    if (options.tolerance_mm || !raw.indexed) {
-        result.welded_to = merge_vertices(positions, options.tolerance_mm.value_or(0.0));
-        rename(triangles, result.welded_to);
-        rename(all, result.welded_to);
-    } else {
-        result.welded_to = each_for_itself(positions.size());
-    }
-    drop_collapsed(triangles, result.warnings);
-    if (triangles.empty()) {
+    const UnitGuess unit =
+        options.unit_mm ? UnitGuess{*options.unit_mm, std::nullopt} : guess_unit(raw);
+    result.unit_mm = unit.unit_mm;
+    if (unit.warning) result.warnings.push_back(*unit.warning);
+    Faces faces;
+    faces.positions.resize(raw.positions.size());
+    std::transform(raw.positions.begin(), raw.positions.end(), faces.positions.begin(),
+                   [&](const Vec3& p) -> Vec3 { return unit.unit_mm * p; });
+    check_coordinates(faces.positions);
+    faces.triangles = selected_triangles(raw, options.groups);
+    merge_places(raw, options, faces);
+    clean_faces(faces, result.repairs);
+    if (faces.triangles.empty())
         throw Error(ErrorCode::mesh_degenerate, "no face is left to flatten");
-    }
-    check_shapes(positions, triangles);
-    check_manifold(positions, triangles);
-    if (is_closed(all) && signed_volume(positions, all) < 0.0) {
-        for (Triangle& t : triangles) std::swap(t[1], t[2]);
-        result.warnings.push_back({"orientation_reversed",
-                                   "all faces of the closed model point inward; they were turned",
-                                   std::nullopt});
-    }
-    result.mesh = build(positions, triangles);
+    wind_alike(faces, result.repairs);
+    drop_strays(faces, result.repairs);
+    close_borders(options, faces, result.repairs);
+    check_shapes(faces.positions, faces.triangles);
+    check_manifold(faces.positions, faces.triangles);
+    turn_outward(raw, faces, result.repairs);
+    result.mesh = build(faces.positions, faces.triangles);
+    result.welded_to = std::move(faces.welded_to);
     return result;
 }
 

@@ -9,17 +9,25 @@ namespace lastflat {
 struct WeldOptions {
     std::optional<double> unit_mm;    ///< one unit of the model in mm; default: the format's
     std::vector<std::string> groups;  ///< faces that carry one of these names; empty: all faces
-    /// Vertices at most this far apart become one. Default: only vertices of one and the same
-    /// place, and only in models without indices, so that a slit stays a slit.
+    /// Vertices at most this far apart become one. Default: those of the same place, within
+    /// `same_place` of the model's size, and only in models without indices, so that a slit stays
+    /// a slit.
     std::optional<double> tolerance_mm;
+    /// Borders at most this far apart are stitched together; 0: none. Default: `near_border` of the
+    /// model's size, and only if this closes a model that comes in several pieces.
+    std::optional<double> stitch_mm;
 };
 
-/// Selects the faces, scales to mm, welds if asked, and checks that the result is a surface: every
-/// edge has one or two faces that wind alike, every vertex one fan of faces, every face an area.
+inline constexpr double same_place = 1e-6, near_border = 2e-3;
+
+/// Selects the faces, scales to mm (the unit is guessed where nobody says), welds, mends what can
+/// be mended, and checks that the result is a surface: every edge has one or two faces that wind
+/// alike, every vertex one fan of faces, every face an area.
 ///
-/// Out:    a closed model that is inside out is turned, with the warning `orientation_reversed`.
-/// Throws: Error{group_not_found, mesh_not_manifold, mesh_not_oriented, mesh_degenerate,
-///         model_too_large}, with the place in mm.
+/// Out:    `repairs` says what was done: repeated and flat faces left out, faces turned, loose
+///         pieces dropped, borders stitched, a closed model that was inside out turned.
+/// Throws: Error{group_not_found, mesh_not_manifold, mesh_not_oriented (it has no two sides),
+///         mesh_degenerate, model_too_large}, with the place in mm.
 [[nodiscard]] SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options = {});
 
 }  // namespace lastflat

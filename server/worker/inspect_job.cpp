@@ -1,8 +1,10 @@
 #include "server/worker/inspect_job.h"
 
 #include "api/problem_json.h"
+#include "api/repair_json.h"
 #include "core/inspect.h"
 #include "server/problem_map.h"
+#include "server/translate.h"
 
 namespace lastflat::server {
 namespace {
@@ -43,7 +45,8 @@ Json report_json(const Inspection& found) {
                   {"area_mm2", found.area_mm2},
                   {"size_mm", {size.x(), size.y(), size.z()}}}},
                 {"regions", std::move(regions)},
-                {"warnings", std::move(warnings)}};
+                {"warnings", std::move(warnings)},
+                {"repairs", api::repairs_json(to_wire(found.repairs))}};
     if (found.fault) report["problem"] = api::problem_json(problem_of(*found.fault));
     return report;
 }

@@ -12,7 +12,7 @@ cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DLASTFL
 ninja -C "$build" -j "${LASTFLAT_FUZZ_JOBS:-1}" fuzz >/dev/null
 
 failed=0
-for harness in ${LASTFLAT_FUZZ_ONLY:-obj gltf request_json http_head multipart chunked flatten}; do
+for harness in ${LASTFLAT_FUZZ_ONLY:-obj stl ply gltf request_json http_head multipart chunked flatten}; do
     grown=$build/corpus/$harness  # what the fuzzer learns stays out of the source tree
     found=$build/findings/$harness
     mkdir -p "$grown" "$found"

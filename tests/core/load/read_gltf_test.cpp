@@ -152,9 +152,12 @@ TEST_SUITE("core/load/read_gltf") {
 
     TEST_CASE("what is not read is refused by name") {
         Json model = triangle();
+        model["extensionsRequired"] = {"EXT_future_mesh"};
+        CHECK(has(error_of(model.dump()),
+                  "unsupported_model: glTF: requires the extension EXT_future_mesh"));
         model["extensionsRequired"] = {"KHR_draco_mesh_compression"};
         CHECK(has(error_of(model.dump()),
-                  "unsupported_model: glTF: requires the extension KHR_draco_mesh_compression"));
+                  "unsupported_model: glTF: compressed data are read in GLB"));
         model = triangle();
         model["buffers"][0]["uri"] = "../../etc/passwd";
         CHECK(has(error_of(model.dump()),
@@ -190,6 +193,25 @@ TEST_SUITE("core/load/read_gltf") {
             raw<float>({0, 0, 0, 1, 0, 0, 0, 2, 0}) + raw<std::uint16_t>({0, 1, 3});
         model["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(bytes);
         CHECK(has(error_of(model.dump()), "index 3 of accessor 1 is past its 3 vertices"));
+    }
+
+    TEST_CASE("a sparse accessor replaces what it names") {
+        Json model = triangle();
+        const std::string bytes =
+            raw<float>({0, 0, 0, 1, 0, 0, 0, 2, 0, 7, 8, 9}) + raw<std::uint16_t>({0, 1, 2, 1});
+        model["buffers"][0] = {{"uri", "data:application/octet-stream;base64," + base64(bytes)},
+                               {"byteLength", bytes.size()}};
+        model["bufferViews"] = {{{"buffer", 0}, {"byteLength", 36}},
+                                {{"buffer", 0}, {"byteOffset", 48}, {"byteLength", 6}},
+                                {{"buffer", 0}, {"byteOffset", 54}, {"byteLength", 2}},
+                                {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 12}}};
+        model["accessors"][0]["sparse"] = {
+            {"count", 1},
+            {"indices", {{"bufferView", 2}, {"componentType", 5123}}},
+            {"values", {{"bufferView", 3}}}};
+        CHECK(load_model(model.dump()).positions[1] == Vec3(7, 8, 9));
+        model["accessors"][0]["sparse"]["count"] = 4;
+        CHECK(has(error_of(model.dump()), "accessor 0 replaces more elements than it has"));
     }
 
     TEST_CASE("a position that is not finite is refused") {

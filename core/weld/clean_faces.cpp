@@ -1,0 +1,224 @@
+#include "core/weld/clean_faces.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/numerics/disjoint_sets.h"
+#include "core/numerics/tolerances.h"
+#include "core/weld/sides.h"
+
+namespace lastflat {
+namespace {
+
+bool names_twice(const Triangle& t) {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+void drop_collapsed(Faces& faces, RepairNote& note) {
+    const auto kept =
+        std::remove_if(faces.triangles.begin(), faces.triangles.end(), [&](const Triangle& t) {
+            if (names_twice(t)) note.at(faces.position(t[0]));
+            return names_twice(t);
+        });
+    faces.triangles.erase(kept, faces.triangles.end());
+}
+
+void drop_repeated(Faces& faces, RepairNote& note) {
+    std::set<Triangle> known;
+    const auto kept =
+        std::remove_if(faces.triangles.begin(), faces.triangles.end(), [&](Triangle t) {
+            const Vec3& place = faces.position(t[0]);
+            std::sort(t.begin(), t.end());
+            if (known.insert(t).second) return false;
+            note.at(place);
+            return true;
+        });
+    faces.triangles.erase(kept, faces.triangles.end());
+}
+
+double edge_length(const Faces& faces, const Triangle& t, std::size_t i) {
+    return (faces.position(t[(i + 1) % 3]) - faces.position(t[i])).norm();
+}
+
+std::size_t longest_side(const Faces& faces, const Triangle& t) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < 3; ++i) {
+        if (edge_length(faces, t, i) > edge_length(faces, t, best)) best = i;
+    }
+    return best;
+}
+
+/// As `check_shapes` has it, with room to spare.
+bool is_flat(const Faces& faces, const Triangle& t) {
+    const double longest = edge_length(faces, t, longest_side(faces, t));
+    const Vec3 normal = (faces.position(t[1]) - faces.position(t[0]))
+                            .cross(faces.position(t[2]) - faces.position(t[0]));
+    return normal.norm() <= 2.0 * tolerance::degenerate_height * longest * longest;
+}
+
+/// Joins the ends of nearly zero edges of flat triangles. Whether there were any.
+bool join_short_edges(Faces& faces, RepairNote& note) {
+    DisjointSets sets(faces.positions.size());
+    bool joined = false;
+    for (const Triangle& t : faces.triangles) {
+        if (!is_flat(faces, t)) continue;
+        const double longest = edge_length(faces, t, longest_side(faces, t));
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (edge_length(faces, t, i) > 4.0 * tolerance::degenerate_height * longest) continue;
+            sets.join(t[i], t[(i + 1) % 3]);
+            note.at(faces.position(t[i]));
+            joined = true;
+            break;
+        }
+    }
+    if (!joined) return false;
+    for (Index& stands_for : faces.welded_to) stands_for = sets.find(stands_for);
+    faces.rename();
+    return true;
+}
+
+/// Takes a flat triangle out and puts its middle vertex into the longest side's other triangle.
+/// Whether there was one; one at a time for each neighbourhood.
+bool remove_caps(Faces& faces, RepairNote& note) {
+    const auto sides = sides_by_edge(faces.triangles);
+    std::vector<Index> flat;
+    for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
+        if (is_flat(faces, faces.triangles[t])) flat.push_back(static_cast<Index>(t));
+    }
+    if (flat.empty()) return false;
+    std::vector<bool> touched(faces.triangles.size(), false);
+    for (const Index cap : flat) {
+        const Triangle t = faces.triangles[static_cast<std::size_t>(cap)];
+        const std::size_t i = longest_side(faces, t);
+        const Index a = t[i], b = t[(i + 1) % 3], middle = t[(i + 2) % 3];
+        const Side wanted{std::min(a, b), std::max(a, b), -1, 0, a < b};
+        auto side =
+            std::lower_bound(sides.begin(), sides.end(), wanted, [](const Side& x, const Side& y) {
+                return x.low != y.low ? x.low < y.low : x.high < y.high;
+            });
+        for (; side != sides.end() && side->same_edge(wanted) && side->triangle == cap;) ++side;
+        if (touched[static_cast<std::size_t>(cap)]) continue;
+        const bool has_neighbour = side != sides.end() && side->same_edge(wanted);
+        if (has_neighbour && touched[static_cast<std::size_t>(side->triangle)]) continue;
+        touched[static_cast<std::size_t>(cap)] = true;
+        note.at(faces.position(middle));
+        if (!has_neighbour) {  // on the border: it covers nothing
+            faces.triangles[static_cast<std::size_t>(cap)] = {a, a, a};
+            continue;
+        }
+        touched[static_cast<std::size_t>(side->triangle)] = true;
+        Triangle& neighbour = faces.triangles[static_cast<std::size_t>(side->triangle)];
+        const auto corner = static_cast<std::size_t>(side->corner);
+        Triangle other = neighbour;
+        neighbour[corner] = middle;
+        other[(corner + 1) % 3] = middle;
+        faces.triangles[static_cast<std::size_t>(cap)] = other;
+    }
+    return true;
+}
+
+}  // namespace
+
+void Faces::rename() {
+    for (Triangle& t : triangles) {
+        for (Index& vertex : t) vertex = welded_to[static_cast<std::size_t>(vertex)];
+    }
+}
+
+void clean_faces(Faces& faces, std::vector<Repair>& repairs) {
+    RepairNote collapsed, repeated, flat;
+    drop_collapsed(faces, collapsed);
+    drop_repeated(faces, repeated);
+    constexpr int most_rounds = 8;  // a cap's neighbour may become a cap
+    for (int round = 0; round < most_rounds; ++round) {
+        RepairNote silent;
+        const bool joined = join_short_edges(faces, flat);
+        if (joined) drop_collapsed(faces, silent);
+        const bool removed = remove_caps(faces, flat);
+        if (removed) drop_collapsed(faces, silent);
+        if (!joined && !removed) break;
+        drop_repeated(faces, silent);
+    }
+    collapsed.write(repairs, "faces_dropped", "triangles that name a vertex twice were left out");
+    repeated.write(repairs, "duplicate_faces_dropped",
+                   "triangles that repeat another were left out");
+    flat.write(repairs, "flat_faces_removed", "triangles without area were taken out");
+}
+
+void wind_alike(Faces& faces, std::vector<Repair>& repairs) {
+    const std::size_t count = faces.triangles.size();
+    struct Neighbour {
+        Index triangle;
+        bool against;  ///< winds the other way
+    };
+    std::vector<std::vector<Neighbour>> neighbours(count);
+    for_each_edge(sides_by_edge(faces.triangles), [&](auto first, auto last) {
+        if (last - first != 2) return;
+        const Side &a = *first, &b = *(first + 1);
+        const bool against = a.forward == b.forward;
+        neighbours[static_cast<std::size_t>(a.triangle)].push_back({b.triangle, against});
+        neighbours[static_cast<std::size_t>(b.triangle)].push_back({a.triangle, against});
+    });
+    std::vector<signed char> turned(count, -1);
+    RepairNote note;
+    for (std::size_t seed = 0; seed < count; ++seed) {
+        if (turned[seed] >= 0) continue;
+        turned[seed] = 0;
+        std::vector<Index> piece{static_cast<Index>(seed)};
+        std::size_t turns = 0;
+        for (std::size_t i = 0; i < piece.size(); ++i) {
+            const auto here = static_cast<std::size_t>(piece[i]);
+            for (const Neighbour& next : neighbours[here]) {
+                auto& state = turned[static_cast<std::size_t>(next.triangle)];
+                if (state >= 0) continue;
+                state = static_cast<signed char>(turned[here] ^ (next.against ? 1 : 0));
+                turns += state;
+                piece.push_back(next.triangle);
+            }
+        }
+        const bool other = 2 * turns > piece.size();
+        for (const Index t : piece) {
+            if ((turned[static_cast<std::size_t>(t)] == 1) == other) continue;
+            Triangle& triangle = faces.triangles[static_cast<std::size_t>(t)];
+            std::swap(triangle[1], triangle[2]);
+            note.at(faces.position(triangle[0]));
+        }
+    }
+    note.write(repairs, "faces_turned",
+               "triangles that wound against their neighbours were turned");
+}
+
+void drop_strays(Faces& faces, std::vector<Repair>& repairs) {
+    DisjointSets pieces(faces.positions.size());
+    for (const Triangle& t : faces.triangles) {
+        pieces.join(t[0], t[1]);
+        pieces.join(t[0], t[2]);
+    }
+    std::map<Index, double> areas;
+    for (const Triangle& t : faces.triangles) {
+        areas[pieces.find(t[0])] += (faces.position(t[1]) - faces.position(t[0]))
+                                        .cross(faces.position(t[2]) - faces.position(t[0]))
+                                        .norm();
+    }
+    if (areas.size() < 2) return;
+    double largest = 0.0;
+    for (const auto& [piece, area] : areas) largest = std::max(largest, area);
+    RepairNote note;
+    std::set<Index> strays;
+    for (const auto& [piece, area] : areas) {
+        if (area >= least_share * largest) continue;
+        strays.insert(piece);
+        note.at(faces.position(piece));
+    }
+    const auto kept =
+        std::remove_if(faces.triangles.begin(), faces.triangles.end(),
+                       [&](const Triangle& t) { return strays.contains(pieces.find(t[0])); });
+    faces.triangles.erase(kept, faces.triangles.end());
+    note.write(repairs, "strays_dropped",
+               "loose pieces with less than 1 % of the largest one's area were left out");
+}
+
+}  // namespace lastflat

@@ -1,0 +1,35 @@
+// Faces that are no part of any surface.
+#pragma once
+
+#include "core/weld/repair.h"
+
+namespace lastflat {
+
+/// Triangles while they are mended. `welded_to[v]` stands for vertex v.
+struct Faces {
+    Points3 positions;
+    std::vector<Triangle> triangles;
+    std::vector<Index> welded_to;
+
+    [[nodiscard]] const Vec3& position(Index vertex) const {
+        return positions[static_cast<std::size_t>(vertex)];
+    }
+    /// Renames the triangles' vertices after `welded_to` has changed.
+    void rename();
+};
+
+/// Drops triangles that name a vertex twice and repetitions of a triangle; flat ones are taken out
+/// so that no hole stays: where an edge is nearly zero its ends become one vertex, else the vertex
+/// that lies on the longest side is put into that side.
+void clean_faces(Faces& faces, std::vector<Repair>& repairs);
+
+/// Turns triangles until neighbours wind alike, as the greater part of each connected piece does.
+/// A surface that has no two sides stays as it is.
+void wind_alike(Faces& faces, std::vector<Repair>& repairs);
+
+/// Drops pieces that share no vertex with the rest and have less than `least_share` of the largest
+/// piece's area.
+inline constexpr double least_share = 0.01;
+void drop_strays(Faces& faces, std::vector<Repair>& repairs);
+
+}  // namespace lastflat

@@ -1,0 +1,15 @@
+// Patches whose borders run along each other become one surface.
+#pragma once
+
+#include "core/weld/clean_faces.h"
+
+namespace lastflat {
+
+/// Closes gaps between whole border loops. Border vertices of one and the same place become one;
+/// two loops that then run along each other all the way, nowhere further apart than `tolerance_mm`,
+/// become one line of edges halfway between them. A vertex without a partner on the other side is
+/// put into the edge that it lies beside (T-junctions). Vertices keep their ids; none is added.
+/// Loops that meet for a part of their way only stay open.
+void stitch(Faces& faces, double tolerance_mm, std::vector<Repair>& repairs);
+
+}  // namespace lastflat

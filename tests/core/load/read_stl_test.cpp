@@ -1,0 +1,93 @@
+#include "core/load/read_stl.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+
+namespace lastflat {
+namespace {
+
+std::string error_of(const std::string& bytes) {
+    try {
+        (void)load_model(bytes);
+    } catch (const Error& error) {
+        return std::string(name(error.code())) + ": " + error.what();
+    }
+    return "no error";
+}
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+template <class T>
+void append(std::string& bytes, T value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+/// `triangles` times the same triangle; `announced` stands in the header.
+std::string binary(std::uint32_t announced, int triangles, const std::string& header = "scan") {
+    std::string bytes = header;
+    bytes.resize(80, ' ');
+    append(bytes, announced);
+    for (int t = 0; t < triangles; ++t) {
+        for (const int number : {0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 3, 0})
+            append(bytes, static_cast<float>(number));
+        append(bytes, std::uint16_t{0});
+    }
+    return bytes;
+}
+
+const std::string text =
+    "solid one\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 2 0 0\n   vertex 0 "
+    "3 0\n  endloop\n endfacet\nendsolid one\n";
+
+}  // namespace
+
+TEST_SUITE("core/load/read_stl") {
+    TEST_CASE("text and binary give the same triangle, not indexed") {
+        for (const std::string& bytes : {text, binary(1, 1), binary(1, 1, "solid binary")}) {
+            const RawMesh mesh = load_model(bytes);
+            CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}});
+            CHECK(mesh.positions == Points3{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}});
+            CHECK_FALSE(mesh.indexed);
+        }
+    }
+
+    TEST_CASE("solids are groups, and an empty one is no harm") {
+        std::string second = text;
+        second.replace(6, 3, "two");
+        const RawMesh mesh = load_model("solid nothing\nendsolid nothing\n" + text + second);
+        REQUIRE(mesh.triangles.size() == 2);
+        CHECK(mesh.label_sets[mesh.triangle_labels[0]] == std::vector<std::string>{"one"});
+        CHECK(mesh.label_sets[mesh.triangle_labels[1]] == std::vector<std::string>{"two"});
+    }
+
+    TEST_CASE("a count that lies is replaced by the bytes that are there") {
+        CHECK(load_model(binary(0, 3)).triangles.size() == 3);
+        CHECK(load_model(binary(4'000'000'000U, 3)).triangles.size() == 3);
+        CHECK(has(error_of(binary(2, 2).substr(0, 84 + 70)), "unreadable_model"));
+    }
+
+    TEST_CASE("what is broken is named with its line or its triangle") {
+        std::string broken = text;
+        broken.replace(broken.find("3 0\n"), 1, "x");
+        CHECK(has(error_of(broken), "STL line 6: 'x' is not a number"));
+        CHECK(has(error_of("solid\nfacet normal 0 0 1\nouter loop\nendloop\n"),
+                  "STL line 4: 'endloop' where 'vertex' is needed"));
+        std::string infinite = binary(1, 1);
+        const float number = INFINITY;
+        std::memcpy(infinite.data() + 100, &number, sizeof number);
+        CHECK(has(error_of(infinite), "mesh_degenerate: STL: a coordinate of triangle 0"));
+        CHECK(has(error_of("solid a\nendsolid a\n"), "has no triangle"));
+    }
+
+    TEST_CASE("limits hold before memory is taken") {
+        LoadLimits limits;
+        limits.triangles = 2;
+        CHECK_THROWS_AS((void)load_model(binary(3, 3), limits), Error);
+        CHECK_THROWS_AS((void)load_model(text + text + text, limits), Error);
+    }
+}
+
+}  // namespace lastflat
