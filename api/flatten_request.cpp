@@ -80,11 +80,18 @@ CurveRequest read_curve(const std::string& name, const Field& field, const Reque
         if (!groups) border_of->fail("must have \"groups\"");
         curve.form = CurveForm::border_of;
         curve.border_of_groups = read_names(*groups, limits);
+        if (curve.border_of_groups.empty() || curve.border_of_groups.size() > 2)
+            groups->fail("must name one group or two");
+        ++forms;
+    }
+    if (const auto line = reader.find("line")) {
+        curve.form = CurveForm::line;
+        curve.line = line->text(limits.name_bytes);
         ++forms;
     }
     reader.finish();
     if (forms != 1)
-        field.fail("must have exactly one of: vertices, polyline, from and to, border_of");
+        field.fail("must have exactly one of: vertices, polyline, from and to, border_of, line");
     return curve;
 }
 

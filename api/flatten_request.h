@@ -12,7 +12,7 @@
 namespace lastflat::api {
 
 enum class Unit { mm, cm, m, in };
-enum class CurveForm { vertices, polyline, geodesic, border_of };
+enum class CurveForm { vertices, polyline, geodesic, border_of, line };
 enum class KeepLength { edges, total };
 enum class Method {
     tutte,
@@ -45,7 +45,8 @@ struct CurveRequest {
     std::vector<Position> polyline;
     std::string from, to;
     std::vector<std::string> via;
-    std::vector<std::string> border_of_groups;
+    std::vector<std::string> border_of_groups;  ///< one or two
+    std::string line;                           ///< a line of the model
 };
 
 struct RegionRequest {

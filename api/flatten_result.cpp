@@ -89,7 +89,7 @@ Json to_json(const FanResult& f) {
         spokes.push_back(
             {{"index", s.index}, {"angle_deg", s.angle_deg}, {"distance_mm", s.distance_mm}});
     }
-    return {{"centre_vertex", f.centre_vertex},
+    return {{"centre_vertex", f.centre_vertex < 0 ? Json() : Json(f.centre_vertex)},
             {"a_1_mm", f.a_1_mm},
             {"a_inf_mm", f.a_inf_mm},
             {"radius_mm", f.radius_mm},
@@ -130,8 +130,20 @@ std::string geometry_text(const RegionResult& r) {
     append(text, r.uv_mm);
     text += ",\"triangles\":";
     append(text, r.triangles);
-    text += ",\"source_vertices\":";
-    append(text, r.source_vertices);
+    text += ",\"source_vertices\":[";
+    for (const std::int32_t source : r.source_vertices)
+        text += (source < 0 ? "null" : std::to_string(source)) + ",";
+    if (text.back() == ',') text.pop_back();
+    text += "],\"source_points\":[";
+    for (const SourcePoint& point : r.source_points) {
+        text += "{\"vertex\":" + std::to_string(point.vertex) + ",\"triangle\":";
+        append(text, point.triangle);
+        text += ",\"weights\":";
+        append(text, point.weights);
+        text += "},";
+    }
+    if (text.back() == ',') text.pop_back();
+    text += ']';
     text += ",\"outline\":{\"points_mm\":";
     append(text, r.outline_mm);
     return text + ",\"segments\":" + text_of(segments) + "}";
@@ -193,6 +205,9 @@ Json rest_of(const FlattenResult& result, bool with_geometry) {
     }
     document["warnings"] = std::move(warnings);
     document["repairs"] = repairs_json(result.repairs);
+    if (result.added)
+        document["added_vertices"] = {{"count", result.added->count},
+                                      {"smallest_angle_deg", result.added->smallest_angle_deg}};
     document["timing_ms"] = {{"load", result.load_ms},
                              {"cut", result.cut_ms},
                              {"parameterize", result.parameterize_ms},

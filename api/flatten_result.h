@@ -66,16 +66,24 @@ struct SpokeResult {
 };
 
 struct FanResult {
-    std::int32_t centre_vertex;  ///< id of the file
+    std::int32_t centre_vertex;  ///< id of the file; -1: a curve made it
     double a_1_mm, a_inf_mm, radius_mm;
     std::vector<SpokeResult> spokes;
+};
+
+/// A vertex that a curve made: the weighted mean of three vertices of the file.
+struct SourcePoint {
+    std::int32_t vertex;  ///< of the region
+    std::array<std::int32_t, 3> triangle;
+    std::array<double, 3> weights;
 };
 
 struct RegionResult {
     std::string name, method;
     std::vector<Point> uv_mm;
     std::vector<std::array<std::int32_t, 3>> triangles;
-    std::vector<std::int32_t> source_vertices;
+    std::vector<std::int32_t> source_vertices;  ///< ids of the file; -1: a curve made it
+    std::vector<SourcePoint> source_points;     ///< where those are
     std::vector<Point> outline_mm;
     std::vector<SegmentResult> segments;
     std::vector<CurveResult> curves;
@@ -99,6 +107,11 @@ struct PlacementResult {
     bool mirrored;
 };
 
+struct AddedVertices {
+    std::uint64_t count = 0;
+    double smallest_angle_deg = 0.0;  ///< of the triangles that curves made
+};
+
 struct RepairResult {
     std::string code, detail;
     std::uint64_t count = 0;
@@ -118,6 +131,7 @@ struct FlattenResult {
     std::vector<PlacementResult> placements;
     std::vector<WarningResult> warnings;
     std::vector<RepairResult> repairs;
+    std::optional<AddedVertices> added;
     double load_ms = 0.0, cut_ms = 0.0, parameterize_ms = 0.0, constrain_ms = 0.0, total_ms = 0.0;
     std::string version;
 };

@@ -245,7 +245,12 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& asked, Progr
     name_welded_vertices(surface, options);
 
     progress.reach(Stage::cut, 0.2);
-    const Curves curves = locate_curves(surface, options.curves);
+    InsertedCurves inserted =
+        insert_curves(surface, locate_curves(surface, options.curves, options.points));
+    const Curves& curves = inserted.curves;
+    result.file_vertices = surface.welded_to.size();
+    result.added_vertices = std::move(inserted.added);
+    result.smallest_added_angle = inserted.smallest_angle;
     const auto regions = cut_into_regions(surface, curves, options.cut);
     check_constraints(options.constraints, curves, regions);
     check_zones(options.weights.zones, curves, regions);

@@ -5,7 +5,7 @@
 
 #include "core/constrain/resolve_conflicts.h"
 #include "core/cut/cut.h"
-#include "core/geodesic/geodesic_fan.h"
+#include "core/fan/geodesic_fan.h"
 #include "core/layout/sheet.h"
 #include "core/load/load_model.h"
 #include "core/locate/curves.h"
@@ -21,6 +21,7 @@ namespace lastflat {
 struct FlattenOptions {
     LoadLimits limits;
     WeldOptions weld;
+    std::vector<PointSource> points;
     std::vector<CurveSource> curves;
     CutOptions cut;
     std::vector<Constraint> constraints;
@@ -60,6 +61,10 @@ struct FlattenResult {
     std::vector<ConstraintReport> constraints;  ///< of what was asked
     Sheet sheet;
     std::vector<Warning> warnings;
+    /// Vertices that curves made, in the order of their ids, which follow those of the file.
+    std::vector<SurfacePlace> added_vertices;
+    double smallest_added_angle = 0.0;  ///< of the triangles that curves made; radians
+    std::size_t file_vertices = 0;
     std::vector<Repair> repairs;  ///< what was changed in the model before
     Timing timing;
     bool draw_fan = false;

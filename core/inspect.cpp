@@ -89,14 +89,15 @@ Inspection inspect(std::string_view model, const FlattenOptions& asked) {
     found.file_vertices = raw.positions.size();
     found.file_triangles = raw.triangles.size();
     found.groups = count_groups(raw);
-    const SurfaceMesh surface = weld(raw, options.weld);
+    SurfaceMesh surface = weld(raw, options.weld);
     found.unit_mm = surface.unit_mm;
     found.warnings = surface.warnings;
     found.repairs = surface.repairs;
     measure_surface(surface.mesh, found);
     name_welded_vertices(surface, options);
     try {
-        const Curves curves = locate_curves(surface, options.curves);
+        const Curves curves =
+            insert_curves(surface, locate_curves(surface, options.curves, options.points)).curves;
         const auto regions = cut_into_regions(surface, curves, options.cut);
         check_constraints(options.constraints, curves, regions);
         check_zones(options.weights.zones, curves, regions);

@@ -20,20 +20,16 @@ double millimetres(api::Unit unit) {
 }
 
 CurveSource curve_of(const api::CurveRequest& curve) {
-    const auto refuse = [&](const char* form) {
-        throw Error(ErrorCode::unsupported_request,
-                    "curve '" + curve.name + "' is given as \"" + form +
-                        "\", which is not in this version; give it as \"vertices\", a path of "
-                        "mesh vertices")
-            .at_option({"curves", curve.name, form});
-    };
-    switch (curve.form) {
-        case api::CurveForm::vertices: break;
-        case api::CurveForm::polyline: refuse("polyline"); break;
-        case api::CurveForm::geodesic: refuse("from"); break;
-        case api::CurveForm::border_of: refuse("border_of"); break;
+    CurveSource source{curve.name, curve.vertices};
+    for (const api::Position& p : curve.polyline) source.polyline.emplace_back(p[0], p[1], p[2]);
+    if (curve.form == api::CurveForm::geodesic) {
+        source.through = {curve.from};
+        source.through.insert(source.through.end(), curve.via.begin(), curve.via.end());
+        source.through.push_back(curve.to);
     }
-    return {curve.name, curve.vertices};
+    source.border_of = curve.border_of_groups;
+    source.line = curve.line;
+    return source;
 }
 
 MethodName method_name(api::Method method) {
@@ -166,11 +162,7 @@ api::MetricsResult to_wire(const Metrics& m) {
 }
 
 api::FanResult to_wire(const GeodesicFan& fan, const Region& region) {
-    api::FanResult wire{region.source_vertices[static_cast<std::size_t>(fan.centre)],
-                        fan.mean_distance,
-                        fan.greatest_distance,
-                        fan.radius,
-                        {}};
+    api::FanResult wire{fan.centre, fan.mean_distance, fan.greatest_distance, fan.radius, {}};
     for (std::size_t i = 0; i < fan.spokes.size(); ++i) {
         wire.spokes.push_back({region.border[i], fan.spokes[i].angle * 180.0 / std::numbers::pi,
                                fan.spokes[i].distance});
@@ -223,6 +215,25 @@ api::ConstraintResult to_wire(const ConstraintReport& report, const Constraint& 
                              : "fail"};
 }
 
+/// The way back to the model: ids of the file, and places between them for vertices that curves
+/// made.
+void trace_back(const FlattenResult& result, api::RegionResult& region) {
+    const auto file_vertices = static_cast<Index>(result.file_vertices);
+    for (std::size_t v = 0; v < region.source_vertices.size(); ++v) {
+        Index& source = region.source_vertices[v];
+        if (source < file_vertices) continue;
+        const SurfacePlace& place =
+            result.added_vertices[static_cast<std::size_t>(source - file_vertices)];
+        region.source_points.push_back({static_cast<std::int32_t>(v),
+                                        place.corners,
+                                        {place.weights[0], place.weights[1], place.weights[2]}});
+        source = -1;
+    }
+    if (!region.fan) return;
+    std::int32_t& centre = region.fan->centre_vertex;
+    centre = region.source_vertices[static_cast<std::size_t>(centre)];
+}
+
 api::RegionResult to_wire(const FlatRegion& flat, MethodName method) {
     api::RegionResult region;
     region.name = flat.region.name;
@@ -255,6 +266,12 @@ FlattenOptions to_options(const api::FlattenRequest& request) {
     options.weld.groups = request.surface_groups;
     options.weld.tolerance_mm = request.weld_tolerance_mm;
     options.weld.stitch_mm = request.stitch_mm;
+    for (const auto& [name, place] : request.points) {
+        PointSource point{name, place.vertex, std::nullopt};
+        if (place.position)
+            point.position = Vec3((*place.position)[0], (*place.position)[1], (*place.position)[2]);
+        options.points.push_back(point);
+    }
     for (const auto& curve : request.curves) options.curves.push_back(curve_of(curve));
     options.cut.cuts = request.cuts;
     for (const auto& region : request.regions) {
@@ -291,7 +308,13 @@ std::vector<api::RepairResult> to_wire(const std::vector<Repair>& repairs) {
 
 api::FlattenResult to_wire(const FlattenResult& result) {
     api::FlattenResult wire;
-    for (const auto& flat : result.regions) wire.regions.push_back(to_wire(flat, result.method));
+    for (const auto& flat : result.regions) {
+        wire.regions.push_back(to_wire(flat, result.method));
+        trace_back(result, wire.regions.back());
+    }
+    if (!result.added_vertices.empty())
+        wire.added = {
+            {result.added_vertices.size(), result.smallest_added_angle * 180.0 / std::numbers::pi}};
     for (const auto& p : result.pairs) {
         wire.pairs.push_back({p.curve, p.a, p.b, p.difference_mm, word(p.verdict)});
     }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/constrain/constraint.h"
-#include "core/locate/curves.h"
+#include "core/cut/insert_curves.h"
 #include "core/parameterize/distortion_weights.h"
 
 namespace lastflat {

@@ -1,8 +1,8 @@
 // Where the named curves run in a region.
 #pragma once
 
+#include "core/cut/insert_curves.h"
 #include "core/cut/region.h"
-#include "core/locate/curves.h"
 
 namespace lastflat {
 

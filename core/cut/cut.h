@@ -1,8 +1,8 @@
 // The surface, opened along curves, falls into regions.
 #pragma once
 
+#include "core/cut/insert_curves.h"
 #include "core/cut/region.h"
-#include "core/locate/curves.h"
 
 namespace lastflat {
 

@@ -17,17 +17,12 @@ struct CurveRun {
 };
 
 /// A triangulated disk with ids of its own, in ascending order of the file's ids.
-struct Region {
+struct Region : Triangulation {
     std::string name;
-    Points3 positions;                   ///< mm
-    std::vector<Triangle> triangles;     ///< counter-clockwise seen from outside
     std::vector<Index> border;           ///< the border loop, counter-clockwise seen from outside
     std::vector<Index> source_vertices;  ///< per vertex, its id in the file
     std::vector<CurveRun> runs;
 
-    [[nodiscard]] const Vec3& position(Index vertex) const {
-        return positions[static_cast<std::size_t>(vertex)];
-    }
     [[nodiscard]] double distance(Index a, Index b) const {
         return (position(a) - position(b)).norm();
     }

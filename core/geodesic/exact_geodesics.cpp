@@ -309,10 +309,10 @@ private:
 
 }  // namespace
 
-ExactGeodesics::ExactGeodesics(const Region& region, std::size_t windows_per_half_edge)
-    : half_edges_(region),
+ExactGeodesics::ExactGeodesics(const Triangulation& surface, std::size_t windows_per_half_edge)
+    : half_edges_(surface),
       most_windows_(windows_per_half_edge * static_cast<std::size_t>(half_edges_.count())) {
-    total_angles_.assign(region.positions.size(), 0.0);
+    total_angles_.assign(surface.positions.size(), 0.0);
     for (Index v = 0; v < half_edges_.vertex_count(); ++v) {
         if (half_edges_.outgoing(v) < 0) continue;
         const double total = half_edges_.total_angle(v);

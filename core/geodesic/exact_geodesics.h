@@ -8,7 +8,7 @@
 
 namespace lastflat {
 
-/// A place on a region: in a triangle, by barycentric weights of its corners. One weight 0: on an
+/// A place on a surface: in a triangle, by barycentric weights of its corners. One weight 0: on an
 /// edge; two: at a vertex.
 struct SurfacePoint {
     Index triangle;
@@ -33,7 +33,8 @@ struct GeodesicDistances {
     std::vector<Arrival> arrivals;
 };
 
-/// Exact polyhedral geodesic distances on one region, by windows that are propagated across edges.
+/// Exact polyhedral geodesic distances on one triangulated surface, by windows that are propagated
+/// across edges.
 ///
 /// Paper:  [chen-1990] (windows, one angle one split), [xin-2009] (filtering against the vertices'
 ///         distances), order of work by buckets as in [xu-2015]. Unlike them: a shortest path may
@@ -45,7 +46,7 @@ class ExactGeodesics {
 public:
     /// `windows_per_half_edge`: how many a run may make on average; smooth surfaces of a million
     /// triangles take 200, malicious ones any number.
-    explicit ExactGeodesics(const Region& region, std::size_t windows_per_half_edge = 500);
+    explicit ExactGeodesics(const Triangulation& surface, std::size_t windows_per_half_edge = 500);
 
     /// Throws: Error{cancelled}; Error{solver_failed} if a run would make too many windows, or
     /// if round-off in a row of nearly flat vertices hides one from all of them.

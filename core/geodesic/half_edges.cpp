@@ -12,17 +12,17 @@ struct Fans {
     std::vector<Index> half_edges;
 };
 
-Fans fans_of(const Region& region) {
+Fans fans_of(const Triangulation& surface) {
     Fans fans;
-    fans.begin.assign(region.positions.size() + 1, 0);
-    for (const Triangle& t : region.triangles) {
+    fans.begin.assign(surface.positions.size() + 1, 0);
+    for (const Triangle& t : surface.triangles) {
         for (const Index v : t) ++fans.begin[static_cast<std::size_t>(v) + 1];
     }
     for (std::size_t v = 1; v < fans.begin.size(); ++v) fans.begin[v] += fans.begin[v - 1];
     fans.half_edges.resize(fans.begin.back());
     std::vector<std::size_t> end(fans.begin.begin(), fans.begin.end() - 1);
     Index h = 0;
-    for (const Triangle& t : region.triangles) {
+    for (const Triangle& t : surface.triangles) {
         for (const Index v : t) fans.half_edges[end[static_cast<std::size_t>(v)]++] = h++;
     }
     return fans;
@@ -30,13 +30,13 @@ Fans fans_of(const Region& region) {
 
 }  // namespace
 
-HalfEdges::HalfEdges(const Region& region) {
-    edges_.reserve(3 * region.triangles.size());
-    for (const Triangle& t : region.triangles) {
+HalfEdges::HalfEdges(const Triangulation& surface) {
+    edges_.reserve(3 * surface.triangles.size());
+    for (const Triangle& t : surface.triangles) {
         for (std::size_t i = 0; i < 3; ++i) {
-            const Vec3& origin = region.position(t[i]);
-            const Vec3 along = region.position(t[(i + 1) % 3]) - origin;
-            const Vec3 across = region.position(t[(i + 2) % 3]) - origin;
+            const Vec3& origin = surface.position(t[i]);
+            const Vec3 along = surface.position(t[(i + 1) % 3]) - origin;
+            const Vec3 across = surface.position(t[(i + 2) % 3]) - origin;
             const double length = along.norm();
             edges_.push_back({{along.dot(across) / length, along.cross(across).norm() / length},
                               length,
@@ -44,7 +44,7 @@ HalfEdges::HalfEdges(const Region& region) {
                               -1});
         }
     }
-    const Fans fans = fans_of(region);
+    const Fans fans = fans_of(surface);
     const auto degree = [&](Index v) {
         return fans.begin[static_cast<std::size_t>(v) + 1] -
                fans.begin[static_cast<std::size_t>(v)];
@@ -61,7 +61,7 @@ HalfEdges::HalfEdges(const Region& region) {
             edges_[static_cast<std::size_t>(g)].twin = h;
         }
     }
-    outgoing_.assign(region.positions.size(), -1);
+    outgoing_.assign(surface.positions.size(), -1);
     for (Index h = 0; h < count(); ++h) {
         Index& first = outgoing_[static_cast<std::size_t>(from(h))];
         if (first < 0 || twin(h) < 0) first = h;

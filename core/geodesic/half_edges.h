@@ -1,7 +1,7 @@
-// A region's half-edges, each with its triangle laid into the plane: what unfolding needs.
+// A surface's half-edges, each with its triangle laid into the plane: what unfolding needs.
 #pragma once
 
-#include "core/cut/region.h"
+#include "core/numerics/types.h"
 
 namespace lastflat {
 
@@ -9,7 +9,7 @@ namespace lastflat {
 /// has the edge along +x from the origin and the triangle above it.
 class HalfEdges {
 public:
-    explicit HalfEdges(const Region& region);
+    explicit HalfEdges(const Triangulation& surface);
 
     [[nodiscard]] static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
     [[nodiscard]] static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }

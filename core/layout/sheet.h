@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/constrain/pins.h"
-#include "core/geodesic/geodesic_fan.h"
+#include "core/fan/geodesic_fan.h"
 #include "core/parameterize/chart.h"
 
 namespace lastflat {

@@ -20,6 +20,13 @@ struct RawMesh {
     std::vector<std::vector<std::string>> label_sets;
     std::vector<std::uint32_t> triangle_labels;
 
+    /// Lines (OBJ: l; glTF: line primitives) with the names of their group, object or node.
+    struct Line {
+        std::vector<std::string> names;
+        std::vector<Index> vertices;
+    };
+    std::vector<Line> lines;
+
     bool indexed = true;           ///< false: triangles do not share vertices (unindexed glTF)
     double default_unit_mm = 1.0;  ///< the model's unit when the request does not say: glTF 1000
 };

@@ -34,6 +34,12 @@ inline constexpr double pin = 1e4;
 /// quasi-definite and can be factored in any order (Vanderbei 1995). Refinement removes its trace.
 inline constexpr double multiplier_regularisation = 1e-7;
 
+/// A curve that is put into a face is put on a vertex or an edge that it passes nearer than this
+/// share of the face's longest edge. A shortest path's length is off by the square of it, and a
+/// triangle of this height has shape enough (see `degenerate_height`); what a hand has drawn is not
+/// exact anyway, and moves further rather than make needles.
+inline constexpr double geodesic_snap = 1e-4, drawn_snap = 0.05;
+
 /// Geodesics: differences below this share are round-off.
 inline constexpr double geodesic_round_off = 1e-12;
 

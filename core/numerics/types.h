@@ -18,6 +18,16 @@ using Points3 = std::vector<Vec3>;
 using Index = std::int32_t;
 using Triangle = std::array<Index, 3>;
 
+/// Triangles with their corners' places.
+struct Triangulation {
+    Points3 positions;                ///< mm
+    std::vector<Triangle> triangles;  ///< counter-clockwise seen from outside
+
+    [[nodiscard]] const Vec3& position(Index vertex) const {
+        return positions[static_cast<std::size_t>(vertex)];
+    }
+};
+
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 }  // namespace lastflat

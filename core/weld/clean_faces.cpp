@@ -18,25 +18,21 @@ bool names_twice(const Triangle& t) {
 }
 
 void drop_collapsed(Faces& faces, RepairNote& note) {
-    const auto kept =
-        std::remove_if(faces.triangles.begin(), faces.triangles.end(), [&](const Triangle& t) {
-            if (names_twice(t)) note.at(faces.position(t[0]));
-            return names_twice(t);
-        });
-    faces.triangles.erase(kept, faces.triangles.end());
+    faces.keep_if([&](const Triangle& t) {
+        if (names_twice(t)) note.at(faces.position(t[0]));
+        return !names_twice(t);
+    });
 }
 
 void drop_repeated(Faces& faces, RepairNote& note) {
     std::set<Triangle> known;
-    const auto kept =
-        std::remove_if(faces.triangles.begin(), faces.triangles.end(), [&](Triangle t) {
-            const Vec3& place = faces.position(t[0]);
-            std::sort(t.begin(), t.end());
-            if (known.insert(t).second) return false;
-            note.at(place);
-            return true;
-        });
-    faces.triangles.erase(kept, faces.triangles.end());
+    faces.keep_if([&](Triangle t) {
+        const Vec3& place = faces.position(t[0]);
+        std::sort(t.begin(), t.end());
+        if (known.insert(t).second) return true;
+        note.at(place);
+        return false;
+    });
 }
 
 double edge_length(const Faces& faces, const Triangle& t, std::size_t i) {
@@ -116,6 +112,8 @@ bool remove_caps(Faces& faces, RepairNote& note) {
         neighbour[corner] = middle;
         other[(corner + 1) % 3] = middle;
         faces.triangles[static_cast<std::size_t>(cap)] = other;
+        faces.labels[static_cast<std::size_t>(cap)] =
+            faces.labels[static_cast<std::size_t>(side->triangle)];
     }
     return true;
 }
@@ -213,10 +211,7 @@ void drop_strays(Faces& faces, std::vector<Repair>& repairs) {
         strays.insert(piece);
         note.at(faces.position(piece));
     }
-    const auto kept =
-        std::remove_if(faces.triangles.begin(), faces.triangles.end(),
-                       [&](const Triangle& t) { return strays.contains(pieces.find(t[0])); });
-    faces.triangles.erase(kept, faces.triangles.end());
+    faces.keep_if([&](const Triangle& t) { return !strays.contains(pieces.find(t[0])); });
     note.write(repairs, "strays_dropped",
                "loose pieces with less than 1 % of the largest one's area were left out");
 }

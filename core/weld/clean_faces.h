@@ -9,6 +9,7 @@ namespace lastflat {
 struct Faces {
     Points3 positions;
     std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> labels;  ///< per triangle
     std::vector<Index> welded_to;
 
     [[nodiscard]] const Vec3& position(Index vertex) const {
@@ -16,6 +17,18 @@ struct Faces {
     }
     /// Renames the triangles' vertices after `welded_to` has changed.
     void rename();
+    /// Keeps the triangles for which it is true.
+    template <class Keep>
+    void keep_if(const Keep& keep) {
+        std::size_t kept = 0;
+        for (std::size_t t = 0; t < triangles.size(); ++t) {
+            if (!keep(triangles[t])) continue;
+            triangles[kept] = triangles[t];
+            labels[kept++] = labels[t];
+        }
+        triangles.resize(kept);
+        labels.resize(kept);
+    }
 };
 
 /// Drops triangles that name a vertex twice and repetitions of a triangle; flat ones are taken out

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,12 @@ struct SurfaceTraits : OpenMesh::DefaultTraits {
 };
 using TriMesh = OpenMesh::TriMesh_ArrayKernelT<SurfaceTraits>;
 
+/// A line of the model, such as a drawn curve.
+struct ModelLine {
+    std::vector<std::string> names;
+    Points3 points;  ///< mm
+};
+
 /// Vertex handles are the ids of the file; a vertex that was welded away, or that no selected face
 /// uses, is isolated.
 struct SurfaceMesh {
@@ -25,7 +32,22 @@ struct SurfaceMesh {
     std::vector<Index> welded_to;  ///< per id of the file, the id that stands for it
     std::vector<Warning> warnings;
     std::vector<Repair> repairs;
-    double unit_mm = 1.0;  ///< one unit of the model
+    double unit_mm = 1.0;                              ///< one unit of the model
+    std::vector<std::vector<std::string>> label_sets;  ///< as in `RawMesh`
+    std::vector<std::uint32_t> face_labels;            ///< per face of the mesh
+    /// Labels of faces that take no part, beside the border: by the border's half-edge, from, to.
+    std::map<std::pair<Index, Index>, std::uint32_t> labels_beyond;
+    std::vector<ModelLine> lines;
+
+    /// The label of the face to the left of a half-edge, whether it takes part or not.
+    [[nodiscard]] std::optional<std::uint32_t> label_at(OpenMesh::HalfedgeHandle h) const {
+        if (!mesh.is_boundary(h))
+            return face_labels[static_cast<std::size_t>(mesh.face_handle(h).idx())];
+        const auto beyond =
+            labels_beyond.find({mesh.from_vertex_handle(h).idx(), mesh.to_vertex_handle(h).idx()});
+        if (beyond == labels_beyond.end()) return std::nullopt;
+        return beyond->second;
+    }
 
     [[nodiscard]] Vec3 position(Index vertex) const {
         const auto& p = mesh.point(OpenMesh::VertexHandle(vertex));

@@ -28,9 +28,9 @@ std::string known_groups(const RawMesh& raw) {
     return text;
 }
 
-std::vector<Triangle> selected_triangles(const RawMesh& raw,
-                                         const std::vector<std::string>& groups) {
-    if (groups.empty()) return raw.triangles;
+/// Per label set, whether its faces take part.
+std::vector<bool> selected_labels(const RawMesh& raw, const std::vector<std::string>& groups) {
+    if (groups.empty()) return std::vector<bool>(raw.label_sets.size(), true);
     std::vector<bool> wanted(raw.label_sets.size(), false);
     for (std::size_t g = 0; g < groups.size(); ++g) {
         bool found = false;
@@ -45,11 +45,7 @@ std::vector<Triangle> selected_triangles(const RawMesh& raw,
                 .at_option({"surface", "groups", std::to_string(g)});
         }
     }
-    std::vector<Triangle> result;
-    for (std::size_t t = 0; t < raw.triangles.size(); ++t) {
-        if (wanted[raw.triangle_labels[t]]) result.push_back(raw.triangles[t]);
-    }
-    return result;
+    return wanted;
 }
 
 void check_shapes(const Points3& positions, const std::vector<Triangle>& triangles) {
@@ -163,16 +159,41 @@ void close_borders(const WeldOptions& options, Faces& faces, std::vector<Repair>
     repairs = std::move(done);
 }
 
-/// The whole model decides, also where only a part of it takes part.
-void turn_outward(const RawMesh& raw, Faces& faces, std::vector<Repair>& repairs) {
-    Faces all{faces.positions, raw.triangles, faces.welded_to};
-    all.rename();
-    const auto& closed = is_closed(faces.triangles) ? faces.triangles : all.triangles;
-    if (!is_closed(closed) || signed_volume(faces.positions, closed) >= 0.0) return;
+void turn_outward(Faces& faces, std::vector<Repair>& repairs) {
+    if (!is_closed(faces.triangles) || signed_volume(faces.positions, faces.triangles) >= 0.0)
+        return;
     for (Triangle& t : faces.triangles) std::swap(t[1], t[2]);
     repairs.push_back({"orientation_reversed",
                        "all faces of the closed model point inward; they were turned",
                        faces.triangles.size()});
+}
+
+/// The faces that take part go into the surface; of the others the labels along its border stay.
+void select_faces(const RawMesh& raw, const WeldOptions& options, Faces& faces,
+                  SurfaceMesh& surface) {
+    const std::vector<bool> wanted = selected_labels(raw, options.groups);
+    Faces chosen{faces.positions, {}, {}, faces.welded_to};
+    for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
+        const Triangle& triangle = faces.triangles[t];
+        if (wanted[faces.labels[t]]) {
+            chosen.triangles.push_back(triangle);
+            chosen.labels.push_back(faces.labels[t]);
+        } else {
+            for (std::size_t i = 0; i < 3; ++i)
+                surface.labels_beyond[{triangle[i], triangle[(i + 1) % 3]}] = faces.labels[t];
+        }
+    }
+    surface.label_sets = raw.label_sets;
+    faces = std::move(chosen);
+}
+
+void scale_lines(const RawMesh& raw, SurfaceMesh& surface) {
+    for (const RawMesh::Line& line : raw.lines) {
+        ModelLine scaled{line.names, {}};
+        for (const Index v : line.vertices)
+            scaled.points.push_back(surface.unit_mm * raw.positions[static_cast<std::size_t>(v)]);
+        surface.lines.push_back(std::move(scaled));
+    }
 }
 
 }  // namespace
@@ -188,7 +209,9 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options) {
     std::transform(raw.positions.begin(), raw.positions.end(), faces.positions.begin(),
                    [&](const Vec3& p) -> Vec3 { return unit.unit_mm * p; });
     check_coordinates(faces.positions);
-    faces.triangles = selected_triangles(raw, options.groups);
+    (void)selected_labels(raw, options.groups);  // a wrong name is said before anything else
+    faces.triangles = raw.triangles;
+    faces.labels = raw.triangle_labels;
     merge_places(raw, options, faces);
     clean_faces(faces, result.repairs);
     if (faces.triangles.empty())
@@ -196,10 +219,15 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options) {
     wind_alike(faces, result.repairs);
     drop_strays(faces, result.repairs);
     close_borders(options, faces, result.repairs);
+    turn_outward(faces, result.repairs);
+    select_faces(raw, options, faces, result);
+    if (faces.triangles.empty())
+        throw Error(ErrorCode::mesh_degenerate, "no face of these groups is left to flatten");
     check_shapes(faces.positions, faces.triangles);
     check_manifold(faces.positions, faces.triangles);
-    turn_outward(raw, faces, result.repairs);
     result.mesh = build(faces.positions, faces.triangles);
+    result.face_labels = faces.labels;
+    scale_lines(raw, result);
     result.welded_to = std::move(faces.welded_to);
     return result;
 }

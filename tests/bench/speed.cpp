@@ -7,7 +7,7 @@
 
 #include "core/border/convex_border.h"
 #include "core/constrain/resolve_conflicts.h"
-#include "core/geodesic/geodesic_centre.h"
+#include "core/fan/geodesic_centre.h"
 #include "core/measure/report.h"
 #include "core/parameterize/fixed_border.h"
 #include "core/parameterize/start.h"

@@ -32,8 +32,9 @@ std::string tube(int around, int up) {
 
 std::vector<Region> cut(const std::string& obj, const std::vector<CurveSource>& sources,
                         const CutOptions& options) {
-    const SurfaceMesh surface = weld(load_model(obj));
-    return cut_into_regions(surface, locate_curves(surface, sources), options);
+    SurfaceMesh surface = weld(load_model(obj));
+    const Curves curves = insert_curves(surface, locate_curves(surface, sources)).curves;
+    return cut_into_regions(surface, curves, options);
 }
 
 std::string error_of(const std::string& obj, const std::vector<CurveSource>& sources,

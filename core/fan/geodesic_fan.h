@@ -1,6 +1,7 @@
 // The geodesic fan of a region: its centre, and the border in polar coordinates around it.
 #pragma once
 
+#include "core/cut/region.h"
 #include "core/geodesic/trace_path.h"
 
 namespace lastflat {

@@ -1,13 +1,13 @@
 // Based on: Kim, Kim, "Geodesic-Fan Based Mesh Parameterization in Shoe CAD System"; Hilaga,
 // Shinagawa, Kohmura, Kunii, "Topology Matching", SIGGRAPH 2001.
-#include "core/geodesic/geodesic_fan.h"
+#include "core/fan/geodesic_fan.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/geodesic/geodesic_centre.h"
+#include "core/fan/geodesic_centre.h"
 #include "core/numerics/polygon.h"
 
 namespace lastflat {

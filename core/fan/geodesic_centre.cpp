@@ -1,4 +1,4 @@
-#include "core/geodesic/geodesic_centre.h"
+#include "core/fan/geodesic_centre.h"
 
 #include <algorithm>
 #include <limits>

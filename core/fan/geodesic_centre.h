@@ -1,6 +1,7 @@
 // The vertex from which the border is least far.
 #pragma once
 
+#include "core/cut/region.h"
 #include "core/geodesic/exact_geodesics.h"
 
 namespace lastflat {

@@ -1,15 +1,15 @@
-#include "core/geodesic/geodesic_fan.h"
+#include "core/fan/geodesic_fan.h"
 
 #include <doctest/doctest.h>
 
 #include <numbers>
 
-#include "core/geodesic/geodesic_centre.h"
+#include "core/fan/geodesic_centre.h"
 #include "tests/helpers/shapes.h"
 
 namespace lastflat {
 
-TEST_SUITE("core/geodesic/geodesic_fan") {
+TEST_SUITE("core/fan/geodesic_fan") {
     TEST_CASE("the centre is the one that trying every inner vertex finds, in few runs") {
         for (const Region& region : {test::dome(13, 1.2), test::saddle(14), test::plane(11)}) {
             const ExactGeodesics geodesics(region);

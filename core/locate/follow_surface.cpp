@@ -1,0 +1,172 @@
+#include "core/locate/follow_surface.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace lastflat {
+namespace {
+
+Vec3 normal_at(const SurfaceMesh& surface, const SurfacePlace& place) {
+    Vec3 sum = Vec3::Zero();
+    for (const Index face : faces_at(surface, place)) {
+        const Triangle t = corners_of(surface, face);
+        sum += (surface.position(t[1]) - surface.position(t[0]))
+                   .cross(surface.position(t[2]) - surface.position(t[0]))
+                   .normalized();
+    }
+    return sum;
+}
+
+/// The plane through two places that stands on the surface.
+struct Section {
+    Vec3 origin, normal, direction;
+    double length;
+
+    [[nodiscard]] double side(const Vec3& p) const { return normal.dot(p - origin); }
+    [[nodiscard]] double along(const Vec3& p) const { return direction.dot(p - origin); }
+};
+
+/// Where the section leaves the faces at a place; the way that leads furthest along.
+std::optional<SurfacePlace> next_place(const SurfaceMesh& surface, const Section& section,
+                                       const SurfacePlace& from, double& reached) {
+    const std::vector<Index> support = from.support();
+    std::optional<SurfacePlace> best;
+    double furthest = reached + 1e-12 * section.length;
+    for (const Index face : faces_at(surface, from)) {
+        const Triangle corners = corners_of(surface, face);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Index a = corners[i], b = corners[(i + 1) % 3];
+            const auto supports = [&](Index v) {
+                return std::find(support.begin(), support.end(), v) != support.end();
+            };
+            // The edge that the place itself is on leads nowhere new.
+            if (support.size() < 3 &&
+                (support.size() == 1 ? supports(a) || supports(b) : supports(a) && supports(b)))
+                continue;
+            const double side_a = section.side(surface.position(a));
+            const double side_b = section.side(surface.position(b));
+            if ((side_a > 0.0) == (side_b > 0.0) && side_a != 0.0 && side_b != 0.0) continue;
+            if (side_a == side_b) continue;
+            double share = side_a / (side_a - side_b);
+            constexpr double at_end = 1e-9;
+            if (share < at_end) share = 0.0;
+            if (share > 1.0 - at_end) share = 1.0;
+            const SurfacePlace place = share == 0.0   ? SurfacePlace::at_vertex(a)
+                                       : share == 1.0 ? SurfacePlace::at_vertex(b)
+                                                      : SurfacePlace::on_edge(a, b, share);
+            const double along = section.along(position_of(surface, place));
+            if (along <= furthest) continue;
+            furthest = along;
+            best = place;
+        }
+    }
+    reached = furthest;
+    return best;
+}
+
+bool share_a_face(const SurfaceMesh& surface, const SurfacePlace& a, const SurfacePlace& b) {
+    const auto faces = faces_at(surface, a);
+    for (const Index face : faces_at(surface, b)) {
+        if (std::find(faces.begin(), faces.end(), face) != faces.end()) return true;
+    }
+    return false;
+}
+
+/// The border's half-edge that a place is on.
+std::optional<OpenMesh::HalfedgeHandle> border_at(const SurfaceMesh& surface,
+                                                  const SurfacePlace& place) {
+    const std::vector<Index> support = place.support();
+    for (const auto h : surface.mesh.voh_range(OpenMesh::VertexHandle(support.front()))) {
+        for (const auto side :
+             {OpenMesh::HalfedgeHandle(h),
+              OpenMesh::HalfedgeHandle(surface.mesh.opposite_halfedge_handle(h))}) {
+            if (!surface.mesh.is_boundary(side)) continue;
+            const Index from = surface.mesh.from_vertex_handle(side).idx();
+            const Index to = surface.mesh.to_vertex_handle(side).idx();
+            if (std::all_of(support.begin(), support.end(),
+                            [&](Index v) { return v == from || v == to; }))
+                return side;
+        }
+    }
+    return std::nullopt;
+}
+
+/// Along the border, if both places are on it and the way is not much longer than the straight one.
+bool slide(const SurfaceMesh& surface, const SurfacePlace& to, std::vector<SurfacePlace>& line) {
+    const auto begin = border_at(surface, line.back()), end = border_at(surface, to);
+    if (!begin || !end) return false;
+    constexpr double longest = 1.25;  // of the straight way
+    const Vec3 from = position_of(surface, line.back()), target = position_of(surface, to);
+    const double most = longest * (target - from).norm();
+    for (const bool forward : {true, false}) {
+        std::vector<SurfacePlace> way;
+        Vec3 at = from;
+        double length = 0.0;
+        OpenMesh::HalfedgeHandle h = *begin;
+        while (length <= most &&
+               !share_a_face(surface, way.empty() ? line.back() : way.back(), to)) {
+            const auto vertex =
+                forward ? surface.mesh.to_vertex_handle(h) : surface.mesh.from_vertex_handle(h);
+            const Vec3 next = surface.position(vertex.idx());
+            length += (next - at).norm();
+            at = next;
+            if (way.empty() ? line.back().vertex() != vertex.idx() : true)
+                way.push_back(SurfacePlace::at_vertex(vertex.idx()));
+            h = forward ? surface.mesh.next_halfedge_handle(h)
+                        : surface.mesh.prev_halfedge_handle(h);
+        }
+        if (length + (target - at).norm() > most) continue;
+        line.insert(line.end(), way.begin(), way.end());
+        line.push_back(to);
+        return true;
+    }
+    return false;
+}
+
+bool walk(const SurfaceMesh& surface, const SurfacePlace& to, std::vector<SurfacePlace>& line) {
+    if (slide(surface, to, line)) return true;
+    const Vec3 begin = position_of(surface, line.back()), end = position_of(surface, to);
+    const Vec3 way = end - begin;
+    if (way.norm() == 0.0) return share_a_face(surface, line.back(), to);
+    const Vec3 normal =
+        way.cross(normal_at(surface, line.back()) + normal_at(surface, to)).normalized();
+    if (!normal.allFinite()) return false;
+    const Section section{begin, normal, way.normalized(), way.norm()};
+    double reached = 0.0;
+    std::vector<SurfacePlace> way_points;
+    SurfacePlace at = line.back();
+    constexpr std::size_t most_steps = 100'000;
+    while (!share_a_face(surface, at, to)) {
+        const auto next = next_place(surface, section, at, reached);
+        if (!next || reached > section.length * (1.0 + 1e-9) || way_points.size() > most_steps)
+            return false;
+        way_points.push_back(*next);
+        at = *next;
+    }
+    line.insert(line.end(), way_points.begin(), way_points.end());
+    line.push_back(to);
+    return true;
+}
+
+bool follow(const SurfaceSearch& search, const SurfaceMesh& surface, const SurfacePlace& to,
+            std::vector<SurfacePlace>& line, int depth) {
+    if (walk(surface, to, line)) return true;
+    if (depth == 0) return false;
+    const Vec3 middle = 0.5 * (position_of(surface, line.back()) + position_of(surface, to));
+    const SurfacePlace between = search.nearest(middle).place;
+    return follow(search, surface, between, line, depth - 1) &&
+           follow(search, surface, to, line, depth - 1);
+}
+
+}  // namespace
+
+bool follow_surface(const SurfaceSearch& search, const SurfaceMesh& surface, const SurfacePlace& to,
+                    std::vector<SurfacePlace>& line) {
+    constexpr int most_halvings = 8;
+    const std::size_t before = line.size();
+    if (follow(search, surface, to, line, most_halvings)) return true;
+    line.resize(before);
+    return false;
+}
+
+}  // namespace lastflat

@@ -1,0 +1,51 @@
+#include "core/locate/surface_place.h"
+
+#include <algorithm>
+
+namespace lastflat {
+
+SurfacePlace between(const SurfacePlace& a, const SurfacePlace& b, double share) {
+    std::vector<Index> vertices = a.support();
+    for (const Index v : b.support()) {
+        if (std::find(vertices.begin(), vertices.end(), v) == vertices.end()) vertices.push_back(v);
+    }
+    SurfacePlace place;
+    place.corners.fill(vertices.front());
+    for (std::size_t i = 0; i < std::min<std::size_t>(vertices.size(), 3); ++i) {
+        place.corners[i] = vertices[i];
+        place.weights[static_cast<Eigen::Index>(i)] =
+            (1.0 - share) * a.weight_of(vertices[i]) + share * b.weight_of(vertices[i]);
+    }
+    return place;
+}
+
+Vec3 position_of(const SurfaceMesh& surface, const SurfacePlace& place) {
+    Vec3 position = Vec3::Zero();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double weight = place.weights[static_cast<Eigen::Index>(i)];
+        if (weight != 0.0) position += weight * surface.position(place.corners[i]);
+    }
+    return position;
+}
+
+Triangle corners_of(const SurfaceMesh& surface, Index face) {
+    Triangle corners{};
+    std::size_t i = 0;
+    for (const auto v : surface.mesh.fv_range(OpenMesh::FaceHandle(face))) corners[i++] = v.idx();
+    return corners;
+}
+
+std::vector<Index> faces_at(const SurfaceMesh& surface, const SurfacePlace& place) {
+    const std::vector<Index> support = place.support();
+    std::vector<Index> faces;
+    for (const auto face : surface.mesh.vf_range(OpenMesh::VertexHandle(support.front()))) {
+        const Triangle corners = corners_of(surface, face.idx());
+        const bool holds = std::all_of(support.begin(), support.end(), [&](Index v) {
+            return std::find(corners.begin(), corners.end(), v) != corners.end();
+        });
+        if (holds) faces.push_back(face.idx());
+    }
+    return faces;
+}
+
+}  // namespace lastflat
