@@ -7,7 +7,6 @@
 
 namespace lastflat::server {
 
-/// Throws: Error{unsupported_request} for a form of curve that is not in this version.
 [[nodiscard]] FlattenOptions to_options(const api::FlattenRequest& request);
 
 [[nodiscard]] api::FlattenResult to_wire(const FlattenResult& result);

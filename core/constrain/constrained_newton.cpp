@@ -65,6 +65,7 @@ public:
             if (is_optimal()) return true;
             progress_.check();
             const Step step = take_step(x);
+            if (has_stalled(step.promised)) return true;
             if (decrease > 0.0 && step.promised < decrease * energy_) return true;
             contradictory_ = hopeless();
             if (contradictory_) return false;
@@ -90,6 +91,14 @@ public:
     }
 
 private:
+    /// Whether steps have long promised nothing but round-off: needles stop the gradient's fall.
+    [[nodiscard]] bool has_stalled(double promised) {
+        const bool idle = promised <= 1e-15 * energy_ && !undecided_ &&
+                          std::max(projected_gradient_ / tolerance::stalled_gradient,
+                                   worst_error_ / tolerance::solver_length) <= 1.0;
+        return (idle_steps_ = idle ? idle_steps_ + 1 : 0) > 3;
+    }
+
     /// Whether the constraints seem to contradict each other.
     [[nodiscard]] bool hopeless() {
         if (worst_error_ <= tolerance::locked_length) {
@@ -279,7 +288,6 @@ private:
             reuse_factor(x);
         }
     }
-
     /// Further steps with the last factor, whose matrix has hardly changed (the chord method).
     void reuse_factor(VectorXd& x) {
         while (!is_optimal() && step_to_conditions(x)) {
@@ -358,7 +366,7 @@ private:
     std::vector<int> releases_;
     double energy_ = 0.0, penalty_ = 0.0, projected_gradient_ = 0.0, worst_error_ = 0.0;
     double least_error_ = std::numeric_limits<double>::infinity();
-    int iterations_ = 0, factorizations_ = 0, least_at_ = 0;
+    int iterations_ = 0, factorizations_ = 0, least_at_ = 0, idle_steps_ = 0;
     bool near_ = false;
     bool blocked_ = false;  ///< the last step would have led to a collision
     bool contradictory_ = false;

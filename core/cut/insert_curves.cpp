@@ -111,7 +111,18 @@ private:
         return found->second;
     }
 
-    /// The vertex at a place, made if there is none.
+    /// Whether a place is on the edge that another is on; inside a face everything is.
+    [[nodiscard]] static bool lies_within(const SurfacePlace& place, const SurfacePlace& other) {
+        const auto support = other.support();
+        if (support.size() == 3) return true;
+        const auto own = place.support();
+        return std::all_of(own.begin(), own.end(), [&](Index v) {
+            return std::find(support.begin(), support.end(), v) != support.end();
+        });
+    }
+
+    /// The vertex at a place, made if there is none. A place on an old edge stays on it: the next
+    /// face knows nothing of what is inside this one.
     Index vertex_at(const SurfacePlace& place) {
         if (const Index vertex = place.vertex(); vertex >= 0) return vertex;
         const Index face = common_face(place, place);
@@ -126,12 +137,14 @@ private:
             for (const auto h : mesh_.fh_range(part)) {
                 const Index a = mesh_.from_vertex_handle(h).idx(),
                             b = mesh_.to_vertex_handle(h).idx();
+                if (!lies_within(place_of(a), place)) continue;
                 const Vec2 from = plane.at(place_of(a)), along = plane.at(place_of(b)) - from;
                 if ((point - from).norm() <= plane.snap) return a;
+                const bool on_line = lies_within(place_of(b), place);
                 const double at = along.dot(point - from) / along.squaredNorm();
                 const double off = cross(along, point - from) / along.norm();
                 inside = std::min(inside, off);
-                if (at <= 0.0 || at >= 1.0 || std::abs(off) > edge_distance) continue;
+                if (!on_line || at <= 0.0 || at >= 1.0 || std::abs(off) > edge_distance) continue;
                 edge_distance = std::abs(off);
                 nearest_edge = h;
                 share = at;

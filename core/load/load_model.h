@@ -17,6 +17,7 @@ struct LoadLimits {
     std::size_t name_bytes = 256;        ///< of one group name
     std::size_t face_names = 64;         ///< of one face
     std::size_t name_sets = 4096;        ///< different sets of names
+    std::size_t lines = 4096;            ///< polylines
     std::size_t json_depth = 64;         ///< nesting inside glTF
 };
 

@@ -113,12 +113,13 @@ private:
         if (mode > TINYGLTF_MODE_TRIANGLE_FAN) {
             fail("the primitive mode " + std::to_string(mode) + " does not exist");
         }
-        if (mode < TINYGLTF_MODE_TRIANGLES) return;  // points and lines have no surface
+        if (mode == TINYGLTF_MODE_POINTS) return;
         const auto position = primitive.attributes.find("POSITION");
         if (position == primitive.attributes.end()) fail("a primitive has no POSITION");
         const auto [base, count] = read_positions(position->second, transform);
-        const auto corners = read_corners(primitive.indices, base, count);
+        auto corners = read_corners(primitive.indices, base, count);
         spend(corners.size());
+        if (mode < TINYGLTF_MODE_TRIANGLES) return read_line(mode, std::move(corners), labels);
         const std::uint32_t label = label_of(labels);
         const bool mirrored = transform.linear().determinant() < 0.0;
         const std::size_t step = mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
@@ -159,6 +160,21 @@ private:
             mesh_.positions.push_back(position);
         }
         return base;
+    }
+
+    void read_line(int mode, std::vector<Index> corners, const std::vector<std::string>& names) {
+        if (mesh_.lines.size() >= limits_.lines)
+            fail("more than " + std::to_string(limits_.lines) + " lines",
+                 ErrorCode::model_too_large);
+        if (mode == TINYGLTF_MODE_LINE_LOOP && !corners.empty()) corners.push_back(corners.front());
+        RawMesh::Line line{names, {}};
+        // Segments of a list make one line where each begins where the last ended.
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const bool joins = mode == TINYGLTF_MODE_LINE && i % 2 == 0 && !line.vertices.empty();
+            if (joins && line.vertices.back() != corners[i]) break;
+            if (!joins) line.vertices.push_back(corners[i]);
+        }
+        if (line.vertices.size() > 1) mesh_.lines.push_back(std::move(line));
     }
 
     /// Returns the id of the first vertex and their number.

@@ -7,10 +7,10 @@
 
 namespace lastflat {
 
-/// Reads the triangles (lists, strips, fans) of the default scene. Positions may be interleaved,
-/// unindexed, normalised or quantized (KHR_mesh_quantization); node transforms are applied, and a
-/// mirroring one turns the winding. Primitives of one node that share an accessor share its
-/// vertices. Names of nodes (with their ancestors), meshes and materials are the groups.
+/// Reads the triangles (lists, strips, fans) and lines of the default scene. Positions may be
+/// interleaved, unindexed, normalised or quantized (KHR_mesh_quantization); node transforms are
+/// applied, and a mirroring one turns the winding. Primitives of one node that share an accessor
+/// share its vertices. Names of nodes (with their ancestors), meshes and materials are the groups.
 /// Images are never decoded; no other file is ever opened.
 ///
 /// Throws: Error{unreadable_model, unsupported_model, model_too_large, mesh_degenerate} naming the

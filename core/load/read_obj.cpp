@@ -73,6 +73,8 @@ private:
             read_vertex(line);
         } else if (keyword == "f" || keyword == "fo") {
             read_face(line);
+        } else if (keyword == "l") {
+            read_line(line);
         } else if (keyword == "g") {
             groups_ = read_names(line);
             labels_changed_ = true;
@@ -147,6 +149,23 @@ private:
         }
     }
 
+    void read_line(std::string_view line) {
+        RawMesh::Line path{current_names(), {}};
+        for (auto word = next_word(line); !word.empty(); word = next_word(line)) {
+            if (++line_corners_ > limits_.vertices) too_large("corners of lines", limits_.vertices);
+            path.vertices.push_back(read_corner(word));
+        }
+        if (mesh_.lines.size() >= limits_.lines) too_large("lines", limits_.lines);
+        if (path.vertices.size() > 1) mesh_.lines.push_back(std::move(path));
+    }
+
+    std::vector<std::string> current_names() const {
+        std::vector<std::string> names = groups_;
+        if (!object_.empty()) names.push_back(object_);
+        if (!material_.empty()) names.push_back(material_);
+        return names;
+    }
+
     std::string checked_name(std::string_view name) const {
         if (name.size() > limits_.name_bytes) too_large("bytes of a name", limits_.name_bytes);
         return std::string(name);
@@ -171,9 +190,7 @@ private:
 
     std::uint32_t current_labels() {
         if (!labels_changed_) return labels_;
-        std::vector<std::string> names = groups_;
-        if (!object_.empty()) names.push_back(object_);
-        if (!material_.empty()) names.push_back(material_);
+        std::vector<std::string> names = current_names();
         const auto next = static_cast<std::uint32_t>(mesh_.label_sets.size());
         const auto [found, is_new] = known_labels_.try_emplace(names, next);
         if (is_new) {
@@ -201,6 +218,7 @@ private:
     std::string object_, material_;
     std::map<std::vector<std::string>, std::uint32_t> known_labels_;
     std::uint32_t labels_ = 0;
+    std::size_t line_corners_ = 0;
     bool labels_changed_ = true;
 };
 

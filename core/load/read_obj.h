@@ -7,7 +7,7 @@
 
 namespace lastflat {
 
-/// Reads `v`, `f`, `g`, `o` and `usemtl`; texture, normals, lines and points are passed over, and
+/// Reads `v`, `f`, `l`, `g`, `o` and `usemtl`; texture, normals and points are passed over, and
 /// no material library is opened. Polygons are split by ear clipping, so concave ones keep their
 /// shape. Indices may be negative (relative) as the format allows.
 ///

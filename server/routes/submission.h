@@ -17,7 +17,7 @@ struct Submission {
 /// `asset_id` and, optional, `request`;
 /// application/json with the model in base64 or an asset's id; or the model's bytes alone, its
 /// constraints in the header `X-Flatten-Constraints` (base64url) or absent.
-/// Throws: Refusal, api::InvalidRequest, Error{unsupported_request}.
+/// Throws: Refusal, api::InvalidRequest.
 [[nodiscard]] Submission read_submission(const http::Request& request);
 
 /// One submission as JSON: {"model": {"data" | "asset_id"}, "request": {...}}.

@@ -7,8 +7,10 @@
 #include <iostream>
 
 #include "core/border/convex_border.h"
+#include "core/cut/insert_curves.h"
 #include "core/geodesic/exact_geodesics.h"
 #include "core/parameterize/fixed_border.h"
+#include "core/weld/weld.h"
 #include "tests/bench/peers.h"
 #include "tests/helpers/face.h"
 #include "tests/helpers/sample.h"
@@ -73,6 +75,36 @@ TEST_SUITE("oracle") {
             check_distances(region, region.border[10]);
         }
         check_distances(test::face(), 777);
+    }
+
+    TEST_CASE("curves that are shortest paths are as long as CGAL's") {
+        const SampleLast last = make_sample_last();
+        WeldOptions options;
+        options.unit_mm = 1.0;
+        SurfaceMesh surface = weld(last.mesh, options);
+        Triangulation whole{last.mesh.positions, last.mesh.triangles};
+        Region region;
+        static_cast<Triangulation&>(region) = whole;
+        peers::CgalMesh cgal(region);
+        std::vector<PointSource> points;
+        std::vector<CurveSource> curves;
+        const auto count = static_cast<Index>(whole.positions.size());
+        for (Index i = 0; i < 6; ++i) {
+            points.push_back({"from" + std::to_string(i), (count / 7 * i + 11) % count, {}});
+            points.push_back({"to" + std::to_string(i), (count / 5 * i + count / 2) % count, {}});
+            curves.push_back({"curve" + std::to_string(i)});
+            curves.back().through = {points[points.size() - 2].name, points.back().name};
+        }
+        const auto inserted = insert_curves(surface, locate_curves(surface, curves, points)).curves;
+        for (std::size_t i = 0; i < inserted.size(); ++i) {
+            double length = 0;
+            const auto& path = inserted[i].vertices;
+            for (std::size_t k = 1; k < path.size(); ++k)
+                length += (surface.position(path[k]) - surface.position(path[k - 1])).norm();
+            const double theirs = cgal.distances_from(
+                *points[2 * i].vertex)[static_cast<std::size_t>(*points[2 * i + 1].vertex)];
+            CHECK(length == doctest::Approx(theirs).epsilon(1e-9));
+        }
     }
 
     TEST_CASE("geodesic distances on a scanned face are CGAL's exact ones") {

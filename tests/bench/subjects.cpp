@@ -24,9 +24,10 @@ std::string bytes_of(const fs::path& path) {
 
 void add_regions(const std::string& name, std::string_view model, const FlattenOptions& options,
                  std::vector<Subject>& subjects) {
-    const SurfaceMesh surface = weld(load_model(model), options.weld);
-    const auto regions =
-        cut_into_regions(surface, locate_curves(surface, options.curves), options.cut);
+    SurfaceMesh surface = weld(load_model(model), options.weld);
+    const auto regions = cut_into_regions(
+        surface, insert_curves(surface, locate_curves(surface, options.curves)).curves,
+        options.cut);
     for (const Region& region : regions) {
         if (region.triangles.size() > largest_table) {
             std::cerr << "skipped: " << name << " has more than " << largest_table

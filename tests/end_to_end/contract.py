@@ -94,7 +94,6 @@ def walk_submissions(walk, example):
 
     refused = [("invalid_request", 422, form((b"model", model), (b"request", b'{"lock": []}'))),
                ("invalid_request", 422, form((b"model", model), (b"request", b"{"))),
-               ("unsupported_request", 422, form((b"model", model), (b"request", b'{"curves": {"heel": {"polyline": [[0, 0, 0], [1, 1, 1]]}}}'))),
                ("model_missing", 422, form((b"request", b"{}"))), ("model_missing", 422, {"body": b""}),
                ("part_unknown", 400, form((b"model", model), (b"options", b"{}"))),
                ("part_repeated", 400, form((b"model", model), (b"model", model))),
@@ -105,7 +104,8 @@ def walk_submissions(walk, example):
                ("bad_chunks", 400, {"headers": ["Transfer-Encoding: chunked\r\n\r\nzz\r\n"]})]
     for code, status, what in refused:
         walk.expect(status, code, "POST", "/v1/jobs", **what)
-    for model, request, code in ((b"hello", {}, "unreadable_model"), (b"ply\nformat ascii 1.0\n", {}, "unsupported_model"),
+    for model, request, code in ((b"hello", {}, "unreadable_model"), (b"OFF\n4 4 6\n", {}, "unsupported_model"),
+                                 (model, {"curves": {"far": {"polyline": [[0, 0, 900], [1, 1, 900]]}}}, "curve_invalid"),
                                  (model, {"cuts": ["none"]}, "curve_invalid"), (model, {"surface": {"groups": ["x"]}}, "group_not_found")):
         id = walk.post(model, request)
         job = walk.wait_for(id, "failed")

@@ -181,3 +181,21 @@ PYTHON
         flatten "$sample/last.obj" method.json
     done
 }
+
+@test "curves may be drawn in space, be shortest paths, or where groups meet" {
+    start_server
+    model=$sample/last.obj
+    jq -c --rawfile model "$model" '
+        ($model | split("\n") | map(select(startswith("v ")) | split(" ")[1:] | map(tonumber))) as $at
+        | .curves.centre_front.vertices as $front | .curves.heel.vertices as $heel
+        | .points = {toe: {position: $at[$front[0]]}, cone: {vertex: $front[-1]}, over: {vertex: $front[($front | length) / 2 | floor]}}
+        | .curves.centre_front = {from: "toe", to: "cone", via: ["over"]}
+        | .curves.heel = {polyline: [$heel[range(0; $heel | length; 3)], $heel[-1] | $at[.]]}
+        | .curves.featherline = {border_of: {groups: ["upper", "sole"]}}' "$sample/last.request.json" > "$BATS_TEST_TMPDIR/request.json"
+    flatten "$model" "$BATS_TEST_TMPDIR/request.json"
+    ask "$url$job/result"
+    jq -e '[.regions[].curves[] | select(.locked)] | length == 4 and all(.verdict == "pass")' "$body"
+    jq -e '[.regions[].curves[] | select(.name == "featherline")] | length == 2' "$body"
+    jq -e '.pairs | map(select(.curve == "heel" or .curve == "centre_front")) | length == 2 and all(.difference_mm < 0.001)' "$body"
+    jq -e '.regions | all((.source_vertices | map(select(. == null)) | length) == (.source_points | length))' "$body"
+}

@@ -94,16 +94,6 @@ fails_with() {
         '.error.position as $p | [($p[0] - $x), ($p[1] - $y), ($p[2] - $z)] | map(. * .) | add | sqrt < 200' "$body"
 }
 
-@test "what belongs to the contract but not to this version is said so" {
-    start_server
-    for form in '{"polyline": [[0,0,0],[9,9,9]]}' '{"from": "a", "to": "b"}' '{"border_of": {"groups": ["upper", "sole"]}}'; do
-        jq -c ".curves.extra = $form" "$sample/last.request.json" > "$request"
-        ask -F "model=@$sample/last.obj" -F "request=@$request" "$url/v1/jobs"
-        assert_problem 422 unsupported_request
-        jq -e '.pointer | startswith("/curves/extra/")' "$body"
-    done
-}
-
 @test "a model that is missing, empty or none is refused" {
     start_server
     ask -F "request=@$sample/last.request.json" "$url/v1/jobs"

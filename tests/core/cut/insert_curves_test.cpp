@@ -1,0 +1,231 @@
+#include "core/cut/insert_curves.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/cut/cut.h"
+#include "core/load/load_model.h"
+#include "core/weld/weld.h"
+
+namespace lastflat {
+namespace {
+
+/// A bumpy square of n x n cells over 0..100 mm; vertex j (n + 1) + i.
+RawMesh bumpy(int n) {
+    RawMesh raw;
+    raw.label_sets = {{"left"}, {"right"}};
+    const auto id = [n](int i, int j) { return static_cast<Index>(j * (n + 1) + i); };
+    for (int j = 0; j <= n; ++j) {
+        for (int i = 0; i <= n; ++i) {
+            const double x = 100.0 * i / n, y = 100.0 * j / n;
+            raw.positions.emplace_back(x, y, 5 * std::sin(x / 17) * std::cos(y / 23));
+        }
+    }
+    for (int j = 0; j < n; ++j) {
+        for (int i = 0; i < n; ++i) {
+            raw.triangles.push_back({id(i, j), id(i + 1, j), id(i + 1, j + 1)});
+            raw.triangles.push_back({id(i, j), id(i + 1, j + 1), id(i, j + 1)});
+            for (int k = 0; k < 2; ++k) raw.triangle_labels.push_back(2 * i < n ? 0 : 1);
+        }
+    }
+    return raw;
+}
+
+SurfaceMesh surface_of(const RawMesh& raw) {
+    WeldOptions options;
+    options.unit_mm = 1.0;
+    return weld(raw, options);
+}
+
+double area(const SurfaceMesh& surface) {
+    double sum = 0.0;
+    for (const auto face : surface.mesh.faces()) sum += surface.mesh.calc_face_area(face);
+    return sum;
+}
+
+double length(const SurfaceMesh& surface, const Curve& curve) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < curve.vertices.size(); ++i)
+        sum +=
+            (surface.position(curve.vertices[i]) - surface.position(curve.vertices[i - 1])).norm();
+    return sum;
+}
+
+bool runs_along_edges(const SurfaceMesh& surface, const Curve& curve) {
+    for (std::size_t i = 1; i < curve.vertices.size(); ++i) {
+        if (!surface.mesh
+                 .find_halfedge(OpenMesh::VertexHandle(curve.vertices[i - 1]),
+                                OpenMesh::VertexHandle(curve.vertices[i]))
+                 .is_valid())
+            return false;
+    }
+    return true;
+}
+
+CurveSource drawn(const std::string& name, const Points3& points) {
+    CurveSource source{name};
+    source.polyline = points;
+    return source;
+}
+
+CurveSource geodesic(const std::string& name, const std::vector<std::string>& through) {
+    CurveSource source{name};
+    source.through = through;
+    return source;
+}
+
+std::string error_of(SurfaceMesh surface, const std::vector<CurveSource>& sources,
+                     const std::vector<PointSource>& points = {}) {
+    try {
+        (void)insert_curves(surface, locate_curves(surface, sources, points));
+    } catch (const Error& error) {
+        return std::string(name(error.code())) + " " + error.option().value_or("") + ": " +
+               error.what();
+    }
+    return "no error";
+}
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_SUITE("core/cut/insert_curves") {
+    TEST_CASE("curves become edges, and the surface stays the same set of points") {
+        SurfaceMesh surface = surface_of(bumpy(20));
+        const SurfaceMesh before = surface;
+        const std::vector<PointSource> points{
+            {"a", {}, Vec3(3.3, 4.4, 0)}, {"b", {}, Vec3(91.7, 77.7, 0)}, {"c", 25, {}}};
+        Points3 ring;
+        for (int i = 0; i <= 24; ++i)
+            ring.emplace_back(50 + 20 * std::cos(i % 24 * M_PI / 12),
+                              50 + 20 * std::sin(i % 24 * M_PI / 12), 0);
+        const auto lines =
+            locate_curves(surface,
+                          {geodesic("ab", {"a", "b"}),
+                           geodesic("cb", {"c", "b"}),
+                           drawn("ring", ring),
+                           drawn("across", {{0.2, 40, 0}, {50, 44, 0}, {99.9, 61, 0}}),
+                           {"row", {42, 43, 44}}},
+                          points);
+        const InsertedCurves inserted = insert_curves(surface, lines);
+        REQUIRE(inserted.curves.size() == 5);
+        for (const Curve& curve : inserted.curves) CHECK(runs_along_edges(surface, curve));
+        CHECK(inserted.curves[2].closed());
+        CHECK(area(surface) == doctest::Approx(area(before)).epsilon(1e-12));
+        CHECK(inserted.added.size() + before.mesh.n_vertices() == surface.mesh.n_vertices());
+        CHECK(inserted.smallest_angle > 0.0);
+        // Along every old edge, the pieces add up to its length.
+        std::map<std::pair<Index, Index>, std::vector<double>> on_edge;
+        for (std::size_t k = 0; k < inserted.added.size(); ++k) {
+            const SurfacePlace& place = inserted.added[k];
+            const auto vertex = static_cast<Index>(before.mesh.n_vertices() + k);
+            CHECK((position_of(before, place) - surface.position(vertex)).norm() < 1e-12);
+            const auto support = place.support();
+            if (support.size() == 2)
+                on_edge[std::minmax(support[0], support[1])].push_back(
+                    place.weight_of(std::max(support[0], support[1])));
+        }
+        for (const auto edge : before.mesh.edges()) {
+            const auto h = before.mesh.halfedge_handle(edge, 0);
+            const auto ends = std::minmax(before.mesh.from_vertex_handle(h).idx(),
+                                          before.mesh.to_vertex_handle(h).idx());
+            std::vector<double> shares = on_edge[ends];
+            std::sort(shares.begin(), shares.end());
+            CHECK(std::adjacent_find(shares.begin(), shares.end()) == shares.end());
+        }
+    }
+
+    TEST_CASE("a shortest path is as long as it says, and drawn ends reach the border") {
+        SurfaceMesh surface = surface_of(bumpy(20));
+        const std::vector<PointSource> points{{"a", {}, Vec3(0.4, 33, 0)}, {"b", 20 * 21 + 7, {}}};
+        const auto lines = locate_curves(surface, {geodesic("ab", {"a", "b"})}, points);
+        double along = 0.0;
+        for (std::size_t i = 1; i < lines[0].places.size(); ++i)
+            along += (position_of(surface, lines[0].places[i]) -
+                      position_of(surface, lines[0].places[i - 1]))
+                         .norm();
+        const InsertedCurves inserted = insert_curves(surface, lines);
+        CHECK(length(surface, inserted.curves[0]) == doctest::Approx(along).epsilon(1e-9));
+        CHECK(
+            surface.mesh.is_boundary(OpenMesh::VertexHandle(inserted.curves[0].vertices.front())));
+    }
+
+    TEST_CASE("curves that cross have a common vertex, and one may end on another") {
+        SurfaceMesh surface = surface_of(bumpy(20));
+        const auto curves =
+            insert_curves(
+                surface,
+                locate_curves(surface, {drawn("up", {{33, 0, 0}, {35, 50, 0}, {33, 100, 0}}),
+                                        drawn("over", {{0, 21, 0}, {50, 23, 0}, {100, 21, 0}}),
+                                        drawn("stem", {{34.9, 63, 0}, {70, 66, 0}})}))
+                .curves;
+        const auto common = [](const Curve& a, const Curve& b) {
+            return std::count_if(a.vertices.begin(), a.vertices.end(), [&](Index v) {
+                return std::find(b.vertices.begin(), b.vertices.end(), v) != b.vertices.end();
+            });
+        };
+        CHECK(common(curves[0], curves[1]) == 1);
+        CHECK(common(curves[0], curves[2]) == 1);
+        const CutOptions cuts{{"up", "over"}, {}};
+        CHECK(cut_into_regions(surface, curves, cuts).size() == 4);
+    }
+
+    TEST_CASE("the same curve drawn twice is the same edges") {
+        SurfaceMesh surface = surface_of(bumpy(16));
+        const Points3 line{{0, 41, 0}, {50, 47, 0}, {100, 39, 0}};
+        const auto curves =
+            insert_curves(surface, locate_curves(surface, {drawn("a", line), drawn("b", line)}))
+                .curves;
+        CHECK(curves[0].vertices == curves[1].vertices);
+    }
+
+    TEST_CASE("groups meet along a line, also where one of them takes no part") {
+        CurveSource seam{"seam"};
+        seam.border_of = {"left", "right"};
+        for (const std::vector<std::string>& groups :
+             {std::vector<std::string>{}, std::vector<std::string>{"left"}}) {
+            WeldOptions options;
+            options.groups = groups;
+            options.unit_mm = 1.0;
+            SurfaceMesh surface = weld(bumpy(10), options);
+            const auto curves = insert_curves(surface, locate_curves(surface, {seam})).curves;
+            REQUIRE(curves[0].vertices.size() == 11);
+            for (const Index v : curves[0].vertices) CHECK(surface.position(v).x() == 50.0);
+        }
+        seam.border_of = {"left", "middle"};
+        CHECK(has(error_of(surface_of(bumpy(4)), {seam}),
+                  "group_not_found /curves/seam/border_of/groups/1"));
+    }
+
+    TEST_CASE("a line of the model is a curve by its name") {
+        RawMesh raw = bumpy(10);
+        raw.lines.push_back({{"drawn by hand"}, {5, 38, 60, 115}});
+        SurfaceMesh surface = surface_of(raw);
+        CurveSource source{"heel"};
+        source.line = "drawn by hand";
+        const auto curves = insert_curves(surface, locate_curves(surface, {source})).curves;
+        CHECK(runs_along_edges(surface, curves[0]));
+        CHECK(curves[0].vertices.front() == 5);
+        CHECK(curves[0].vertices.back() == 115);
+        source.line = "another";
+        CHECK(has(error_of(surface, {source}), "curve_invalid /curves/heel/line"));
+    }
+
+    TEST_CASE("what cannot be found is refused with the curve, the item and the place") {
+        const SurfaceMesh surface = surface_of(bumpy(10));
+        CHECK(has(error_of(surface, {drawn("far", {{1, 1, 0}, {50, 50, 40}})}),
+                  "curve_invalid /curves/far/polyline/1: curve 'far', item 1: the point is"));
+        CHECK(has(error_of(surface, {geodesic("g", {"a", "b"})}, {{"a", 3, {}}}),
+                  "curve_invalid /curves/g/to: curve 'g': there is no point 'b'"));
+        CHECK(has(error_of(surface,
+                           {drawn("eight", {{20, 20, 0}, {60, 60, 0}, {60, 20, 0}, {20, 60, 0}})}),
+                  "curve_invalid /curves/eight: curve 'eight' meets itself"));
+    }
+}
+
+}  // namespace lastflat
