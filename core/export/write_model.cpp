@@ -66,10 +66,10 @@ std::string write_flat_obj(const FlattenResult& result) {
     for (const FlatRegion& flat : result.regions) {
         text += "g " + obj_word(flat.region.name).substr(0, 120) + "\n";
         for (const Vec3& p : flat.region.positions) {
-            append_line(text, "v", std::array{p.x(), p.y(), p.z()}, std::chars_format::general, 9);
+            append_line(text, "v", std::array{p.x(), p.y(), p.z()}, std::chars_format::general, 13);
         }
         for (const Vec2& p : flat.chart.uv)
-            append_line(text, "vt", std::array{p.x(), p.y()}, std::chars_format::general, 12);
+            append_line(text, "vt", std::array{p.x(), p.y()}, std::chars_format::general, 13);
         for (const Triangle& t : flat.region.triangles) {
             text += 'f';
             for (const Index corner : t) {

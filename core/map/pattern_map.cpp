@@ -1,0 +1,67 @@
+#include "core/map/pattern_map.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace lastflat {
+namespace {
+
+Triangulation flat(const FlatPiece& piece) {
+    Triangulation result{{}, piece.triangles};
+    for (const Vec2& p : piece.uv) result.positions.emplace_back(p.x(), p.y(), 0.0);
+    return result;
+}
+
+/// The weighted mean of a triangle's corners.
+template <class Points>
+typename Points::value_type mean(const FlatPiece& piece, const Points& places,
+                                 const TriangleSearch::Nearest& at) {
+    const Triangle& t = piece.triangles[static_cast<std::size_t>(at.triangle)];
+    const auto corner = [&](std::size_t i) { return places[static_cast<std::size_t>(t[i])]; };
+    return at.weights[0] * corner(0) + at.weights[1] * corner(1) + at.weights[2] * corner(2);
+}
+
+}  // namespace
+
+PatternMap::PatternMap(const std::vector<FlatPiece>& pieces) {
+    for (const FlatPiece& piece : pieces) {
+        pieces_.push_back({piece, TriangleSearch(Triangulation{piece.positions, piece.triangles}),
+                           TriangleSearch(flat(piece))});
+    }
+}
+
+const PatternMap::Searched& PatternMap::searched(const std::string& piece) const {
+    const auto found = std::find_if(pieces_.begin(), pieces_.end(), [&](const Searched& searched) {
+        return searched.piece.name == piece;
+    });
+    if (found == pieces_.end())
+        throw Error(ErrorCode::region_invalid, "the pattern has no piece '" + piece + "'");
+    return *found;
+}
+
+PatternMap::OnPattern PatternMap::to_pattern(const Vec3& position,
+                                             const std::optional<std::string>& piece) const {
+    const Searched* best = piece ? &searched(*piece) : nullptr;
+    TriangleSearch::Nearest nearest;
+    if (best != nullptr) nearest = best->last.nearest(position);
+    for (std::size_t i = 0; !piece && i < pieces_.size(); ++i) {
+        const auto found = pieces_[i].last.nearest(position);
+        if (best != nullptr && found.distance >= nearest.distance) continue;
+        best = &pieces_[i];
+        nearest = found;
+    }
+    if (best == nullptr || nearest.triangle < 0)
+        throw Error(ErrorCode::region_invalid, "the pattern has no piece");
+    return {best->piece.name, mean(best->piece, best->piece.uv, nearest), nearest.distance};
+}
+
+PatternMap::OnLast PatternMap::to_last(const std::string& piece, const Vec2& uv) const {
+    const Searched& of = searched(piece);
+    const auto nearest = of.pattern.nearest({uv.x(), uv.y(), 0.0});
+    if (nearest.triangle < 0)
+        throw Error(ErrorCode::region_invalid, "the piece '" + piece + "' has no triangle");
+    return {mean(of.piece, of.piece.positions, nearest), nearest.distance};
+}
+
+}  // namespace lastflat
