@@ -10,6 +10,7 @@
 #include "server/problem_map.h"
 #include "server/translate.h"
 #include "server/worker/inspect_job.h"
+#include "server/worker/map_job.h"
 #include "server/worker/run_job.h"
 
 namespace lastflat::server {
@@ -107,18 +108,31 @@ std::optional<api::Problem> read_input(const fs::path& model,
     return std::nullopt;
 }
 
-}  // namespace
-
-int inspect_command(const fs::path& model, const std::optional<fs::path>& request) {
-    std::optional<JobInput> input;
-    if (const auto problem = read_input(model, request, input)) return report(*problem);
-    const nlohmann::ordered_json found = inspect_job(*input);
+/// A report on standard output, or a problem on standard error.
+int print(const nlohmann::ordered_json& found) {
     if (const auto problem = found.find("problem"); problem != found.end()) {
         std::cerr << problem->dump() << std::endl;
         return problem->at("status").get<int>() < 500 ? 2 : 1;
     }
     std::cout << found.at("report").dump(2) << std::endl;
     return 0;
+}
+
+}  // namespace
+
+int inspect_command(const fs::path& model, const std::optional<fs::path>& request) {
+    std::optional<JobInput> input;
+    if (const auto problem = read_input(model, request, input)) return report(*problem);
+    return print(inspect_job(*input));
+}
+
+int map_command(const fs::path& flat_obj, const fs::path& points) {
+    const auto pieces = file_bytes(flat_obj), request = file_bytes(points);
+    for (const auto& [bytes, path] :
+         {std::pair(&pieces, &flat_obj), std::pair(&request, &points)}) {
+        if (!*bytes) return report(file_problem(404, "cannot read " + path->string()));
+    }
+    return print(map_job(*pieces, *request));
 }
 
 int flatten_command(const fs::path& model, const std::optional<fs::path>& request,

@@ -20,6 +20,11 @@ namespace lastflat::server {
 [[nodiscard]] int inspect_command(const std::filesystem::path& model,
                                   const std::optional<std::filesystem::path>& request);
 
+/// Prints where the points and lines of a file, as `POST /v1/jobs/{id}/map` takes them, lie on the
+/// pattern or on the last. `flat_obj`: of `flatten`. Exit codes as above.
+[[nodiscard]] int map_command(const std::filesystem::path& flat_obj,
+                              const std::filesystem::path& points);
+
 /// Writes DIR/last.obj, last.glb and last.request.json. Exit codes as above.
 [[nodiscard]] int sample_last_command(const SampleLastOptions& options,
                                       const std::filesystem::path& directory);

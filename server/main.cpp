@@ -157,6 +157,16 @@ CLI::App* add_inspect(CLI::App& app, Arguments& a) {
     return inspect;
 }
 
+CLI::App* add_map(CLI::App& app, Arguments& a) {
+    auto* map = app.add_subcommand("map", "Points of the last on its pattern, and back");
+    map->add_option("FLAT_OBJ", a.model, "flat.obj of `flatten`")->required();
+    map->add_option("POINTS", a.request,
+                    "JSON: to_pattern and to_last, each with points and "
+                    "polylines")
+        ->required();
+    return map;
+}
+
 CLI::App* add_flatten(CLI::App& app, Arguments& a) {
     auto* flatten = app.add_subcommand("flatten", "Flatten one last without a server");
     flatten->add_option("MODEL", a.model, "The last: OBJ, STL, PLY, glTF or GLB")->required();
@@ -192,6 +202,7 @@ int run(int argc, char** argv) {
     const auto* serve = add_serve(app, a);
     const auto* flatten = add_flatten(app, a);
     const auto* inspect = add_inspect(app, a);
+    const auto* map = add_map(app, a);
     const auto* sample = add_sample_last(app, a);
     const auto operator_commands = add_operator_commands(app, a);
     try {
@@ -207,6 +218,7 @@ int run(int argc, char** argv) {
     const auto request =
         a.request.empty() ? std::nullopt : std::optional<std::filesystem::path>(a.request);
     if (flatten->parsed()) return server::flatten_command(a.model, request, a.out);
+    if (map->parsed()) return server::map_command(a.model, a.request);
     if (inspect->parsed()) return server::inspect_command(a.model, request);
     if (sample->parsed()) return server::sample_last_command(a.sample, a.out);
     if (serve->parsed()) server::serve(a.settings);

@@ -135,7 +135,7 @@ public:
                    workers_,
                    estimate_,
                    metrics_,
-                   validator(settings_, data_.work(), [this] { return watch_.is_closed(); }),
+                   inquiry(settings_, data_.work(), [this] { return watch_.is_closed(); }),
                    keys_.secret("cursor")},
           housekeeping_(service_) {
         if (settings_.webhooks != WebhookTargets::none) {

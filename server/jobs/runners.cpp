@@ -11,7 +11,7 @@
 namespace lastflat::server {
 namespace {
 
-constexpr int most_validations = 2;
+constexpr int most_inquiries = 2;
 constexpr std::chrono::milliseconds look{100};
 
 ProcessLimits process_limits(const Settings& settings) {
@@ -41,17 +41,17 @@ JobRunner job_runner(const Settings& settings, const BlobStore& blobs) {
         };
 }
 
-Validator validator(const Settings& settings, const std::filesystem::path& work,
-                    std::function<bool()> ends) {
-    const auto slots = std::make_shared<std::counting_semaphore<>>(most_validations);
+Inquiry inquiry(const Settings& settings, const std::filesystem::path& work,
+                std::function<bool()> ends) {
+    const auto slots = std::make_shared<std::counting_semaphore<>>(most_inquiries);
     return [slots, work, ends = std::move(ends), limits = process_limits(settings)](
-               const std::string& model, const std::string& request) {
+               Task task, const std::string& model, const std::string& request) {
         ProcessEnd end;
         end.kind = ProcessEnd::Kind::stopped;
         while (!slots->try_acquire_for(look)) {
             if (ends()) return end;
         }
-        const std::filesystem::path file = work / ("validate-" + new_job_id());
+        const std::filesystem::path file = work / ("inquiry-" + new_job_id());
         const auto clear = [&](void*) {
             unlink(file.c_str());
             slots->release();
@@ -59,7 +59,7 @@ Validator validator(const Settings& settings, const std::filesystem::path& work,
         const std::unique_ptr<void, decltype(clear)> at_end(slots.get(), clear);
         write_durably(file, model);
         WorkOrder order;
-        order.validate = true;
+        order.task = task;
         order.digest = sha256(model);
         order.model = file;
         order.request = request;

@@ -9,13 +9,14 @@ namespace lastflat::server {
 /// `blobs` must outlive the runner.
 [[nodiscard]] JobRunner job_runner(const Settings& settings, const BlobStore& blobs);
 
-/// Runs the stages before the flattening in a process of its own.
-using Validator = std::function<ProcessEnd(const std::string& model, const std::string& request)>;
+/// A short task in a process of its own: a validation, or a mapping.
+using Inquiry =
+    std::function<ProcessEnd(Task task, const std::string& model, const std::string& request)>;
 
 /// Few at once, others wait: each may use as much as a job. `work`: a folder for the models.
 /// Once `ends` says so they end at once, as stopped.
-[[nodiscard]] Validator validator(const Settings& settings, const std::filesystem::path& work,
-                                  std::function<bool()> ends);
+[[nodiscard]] Inquiry inquiry(const Settings& settings, const std::filesystem::path& work,
+                              std::function<bool()> ends);
 
 [[nodiscard]] int hardware_threads();
 

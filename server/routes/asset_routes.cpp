@@ -6,9 +6,9 @@
 #include "api/job.h"
 #include "server/crypto.h"
 #include "server/routes/answers.h"
+#include "server/routes/inquire.h"
 #include "server/routes/submission.h"
 #include "server/routes/submit.h"
-#include "server/routes/waiting_place.h"
 
 namespace lastflat::server {
 namespace {
@@ -113,23 +113,7 @@ Response validate(Service& service, const Request& request) {
             refuse(422, "asset_not_found", "there is no asset " + submission.asset.substr(0, 80));
         submission.model = service.blobs.read(submission.asset);
     }
-    const WaitingPlace place(service, request);
-    if (!place.is_taken())
-        refuse(503, "validations_full", "too many models are being looked at; try again later");
-    const ProcessEnd end = service.validate(submission.model, submission.request);
-    if (end.kind == ProcessEnd::Kind::timed_out)
-        refuse(422, "job_too_slow", "the model took too long to look at; send a coarser one");
-    if (end.kind == ProcessEnd::Kind::stopped)
-        refuse(503, "draining", "the service is ending; try again later");
-    if (end.kind != ProcessEnd::Kind::finished)
-        refuse(500, "worker_crashed", "the program broke on this model; the service goes on");
-    if (end.report.empty()) {
-        const Json problem = Json::parse(end.outcome.error);
-        Response response = json_response(problem.at("status"), end.outcome.error);
-        response.media_type = "application/problem+json";
-        return response;
-    }
-    return json_response(200, end.report);
+    return inquire(service, request, Task::validate, submission.model, submission.request);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/routes/answers.h"
+#include "server/routes/inquire.h"
 #include "server/routes/job_view.h"
 #include "server/routes/result_format.h"
 
@@ -82,6 +83,14 @@ Response result_as(const Service& service, const Request& request, ResultFormat 
                          job.id + "." + std::string(name(format)));
 }
 
+Response map_points(Service& service, const Request& request) {
+    const JobRecord job = finished_job(service, request);
+    if (request.body.size() != 1 || request.body[0].media_type != "application/json")
+        refuse(415, "media_type_unsupported", "what is to be mapped is JSON: application/json");
+    const std::string obj = result_bytes(service, job, result_part(job, "obj", false));
+    return inquire(service, request, Task::map, obj, request.body[0].bytes);
+}
+
 }  // namespace
 
 std::vector<http::Route> result_routes(Service& service) {
@@ -93,7 +102,10 @@ std::vector<http::Route> result_routes(Service& service) {
              const JobRecord job = finished_job(service, request);
              return part_response(service, request, job, "metrics", "application/json",
                                   job.id + ".metrics.json");
-         })}};
+         })},
+        {"POST", "/v1/jobs/{id}/map",
+         guarded([&service](const Request& request) { return map_points(service, request); }),
+         true}};
     for (const ResultFormat format :
          {ResultFormat::json, ResultFormat::svg, ResultFormat::glb, ResultFormat::obj}) {
         routes.push_back({"GET", "/v1/jobs/{id}/result." + std::string(name(format)),

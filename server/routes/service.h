@@ -68,7 +68,7 @@ struct Service {
     WorkerPool& workers;
     Estimate& estimate;
     Metrics& metrics;
-    Validator validate;
+    Inquiry inquire;
     std::string cursor_secret;
     KeysInFlight keys_in_flight{};
     PlacesByKey places{};

@@ -18,6 +18,7 @@
 #include "server/stores/files.h"
 #include "server/translate.h"
 #include "server/worker/inspect_job.h"
+#include "server/worker/map_job.h"
 #include "server/worker/result_pack.h"
 #include "server/worker/work_messages.h"
 
@@ -88,6 +89,7 @@ void flatten(const WorkOrder& order, const JobInput& input) {
 void work(const WorkOrder& order) {
     JobInput input;
     try {
+        if (order.task == Task::map) return say(map_job(read_model(order), order.request));
         input.options = to_options(api::flatten_request_from_json(order.request));
         input.options.threads = static_cast<std::size_t>(order.threads);
         input.model = read_model(order);
@@ -101,7 +103,7 @@ void work(const WorkOrder& order) {
              std::string("the model cannot be read back: ") + error.what() + "; post the job again",
              std::nullopt, std::nullopt});
     }
-    if (order.validate) return say(inspect_job(input));
+    if (order.task == Task::validate) return say(inspect_job(input));
     flatten(order, input);
 }
 

@@ -9,7 +9,7 @@ namespace lastflat::server {
 using Json = nlohmann::ordered_json;
 
 std::string to_line(const WorkOrder& order) {
-    const Json json{{"validate", order.validate},   {"model", order.model},
+    const Json json{{"task", order.task},           {"model", order.model},
                     {"digest", order.digest},       {"request", order.request},
                     {"result", order.result},       {"threads", order.threads},
                     {"memory_mb", order.memory_mb}, {"cpu_seconds", order.cpu_seconds},
@@ -19,7 +19,7 @@ std::string to_line(const WorkOrder& order) {
 
 WorkOrder work_order_of(std::string_view line) {
     const auto json = Json::parse(line);
-    return {json.at("validate"),  json.at("model"),       json.at("digest"),
+    return {json.at("task"),      json.at("model"),       json.at("digest"),
             json.at("request"),   json.at("result"),      json.at("threads"),
             json.at("memory_mb"), json.at("cpu_seconds"), json.at("parent")};
 }

@@ -4,7 +4,8 @@
 //   worker -> service   {"stage": "cut", "fraction": 0.2}            any number of times
 //                       {"digest": "...", "parts": [...]}            the end: a result in `result`
 //                       {"problem": {...}}                           the end: the job has failed
-//                       {"report": {...}}                            the end of a validation
+//                       {"report": {...}}                            the end of a validation or a
+//                       mapping
 //                       {"retry": "why"}                             the end: not the job's fault
 #pragma once
 
@@ -16,12 +17,18 @@
 
 namespace lastflat::server {
 
+enum class Task {
+    flatten,
+    validate,  ///< only load and check
+    map        ///< between last and pattern; the model is a result's OBJ
+};
+
 struct WorkOrder {
-    bool validate = false;  ///< only load and check
-    std::string model;      ///< path
-    std::string digest;     ///< of the model
-    std::string request;    ///< constraint JSON
-    std::string result;     ///< path of the file to write
+    Task task = Task::flatten;
+    std::string model;    ///< path
+    std::string digest;   ///< of the model
+    std::string request;  ///< constraint JSON, or what to map
+    std::string result;   ///< path of the file to write
     int threads = 1;
     int memory_mb = 0;    ///< 0: no limit
     int cpu_seconds = 0;  ///< 0: no limit

@@ -11,6 +11,7 @@ could not provoke. Without python3-jsonschema it says so and ends with 77 (skipp
 import base64
 import hashlib
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -91,6 +92,7 @@ def walk_submissions(walk, example):
         if method == "OPTIONS":
             walk.expect(204, None, method, path)
     walk.expect(409, "already_finished", "POST", "/v1/jobs/{id}/cancel", id=jobs[0])
+    walk_map(walk, jobs[0])
 
     refused = [("invalid_request", 422, form((b"model", model), (b"request", b'{"lock": []}'))),
                ("invalid_request", 422, form((b"model", model), (b"request", b"{"))),
@@ -114,6 +116,24 @@ def walk_submissions(walk, example):
         walk.expect(409, code, "GET", "/v1/jobs/{id}/result", id=id)
         walk.expect(409, None, "HEAD", "/v1/jobs/{id}/result", id=id)
     return jobs[0]
+
+
+def walk_map(walk, id):
+    """Every vertex of a piece to the last and back."""
+    result = walk.expect(200, None, "GET", "/v1/jobs/{id}/result", id=id)
+    region = result["regions"][0]
+    ask = lambda asked: walk.expect(200, None, "POST", "/v1/jobs/{id}/map", id=id, headers=["Content-Type: application/json"],
+                                    body=json.dumps(asked).encode())
+    last = ask({"to_last": {"region": region["name"], "points": region["uv_mm"], "polylines": [region["uv_mm"][:3]]}})["to_last"]
+    back = ask({"to_pattern": {"region": region["name"], "points": [p["position"] for p in last["points"]],
+                               "polylines": [last["polylines"][0]["positions"]]}})["to_pattern"]
+    for uv, there, here in zip(region["uv_mm"], last["points"], back["points"]):
+        assert there["distance_mm"] < 1e-9 and math.dist(uv, here["uv_mm"]) < 1e-6, (uv, there, here)
+    assert len(back["polylines"]) == 1, back["polylines"]
+    for code, status, what in (("invalid_request", 422, b'{"to_last": {}}'), ("invalid_request", 422, b"{"),
+                               ("region_invalid", 422, b'{"to_last": {"region": "nowhere", "points": [[0, 0]]}}')):
+        walk.expect(status, code, "POST", "/v1/jobs/{id}/map", id=id, headers=["Content-Type: application/json"], body=what)
+    walk.expect(415, "media_type_unsupported", "POST", "/v1/jobs/{id}/map", id=id, body=b"{}")
 
 
 def walk_waiting(walk, finished):

@@ -106,10 +106,10 @@ TEST_SUITE("server/jobs/worker_process") {
     TEST_CASE("a validation comes back with a report") {
         WorkSetting s;
         WorkOrder order = s.order(square);
-        order.validate = true;
+        order.task = Task::validate;
         CHECK(s.run(order).report.find("\"flattens\":true") != std::string::npos);
         order = s.order("hello");
-        order.validate = true;
+        order.task = Task::validate;
         CHECK(s.run(order).outcome.error.find("unreadable_model") != std::string::npos);
     }
 
