@@ -205,6 +205,7 @@ Json rest_of(const FlattenResult& result, bool with_geometry) {
     }
     document["warnings"] = std::move(warnings);
     document["repairs"] = repairs_json(result.repairs);
+    if (result.found && with_geometry) document["found"] = found_json(*result.found);
     if (result.added)
         document["added_vertices"] = {{"count", result.added->count},
                                       {"smallest_angle_deg", result.added->smallest_angle_deg}};
@@ -237,6 +238,32 @@ Json repairs_json(const std::vector<RepairResult>& repairs) {
                         {"positions", repair.positions}});
     }
     return list;
+}
+
+Json found_json(const FoundLandmarks& found) {
+    Json curves = Json::object();
+    for (const FoundCurve& curve : found.curves) {
+        if (curve.polyline.empty())
+            curves[curve.name] = {{"vertices", curve.vertices}};
+        else
+            curves[curve.name] = {{"polyline", curve.polyline}};
+    }
+    Json request{{"curves", std::move(curves)},
+                 {"cuts", {"featherline", "topline", "centre_front", "heel"}},
+                 {"regions",
+                  {{"lateral", {{"contains", {{"vertex", found.lateral_vertex}}}}},
+                   {"medial", {{"contains", {{"vertex", found.medial_vertex}}}}}}},
+                 {"locks", {{{"curve", "centre_front"}}, {{"curve", "heel"}}}}};
+    return {{"foot", found.foot},
+            {"up", found.up},
+            {"forward", found.forward},
+            {"heel_point", found.heel_point},
+            {"toe_point", found.toe_point},
+            {"confidence",
+             {{"featherline", found.featherline_confidence},
+              {"topline", found.topline_confidence},
+              {"sides", found.sides_confidence}}},
+            {"request", std::move(request)}};
 }
 
 std::string to_json(const FlattenResult& result) {

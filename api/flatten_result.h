@@ -107,6 +107,22 @@ struct PlacementResult {
     bool mirrored;
 };
 
+/// A curve that was found, in the form in which it may be sent back.
+struct FoundCurve {
+    std::string name;
+    std::vector<std::int32_t> vertices;
+    std::vector<std::array<double, 3>> polyline;
+};
+
+/// What was found on a bare last.
+struct FoundLandmarks {
+    std::string foot;  ///< "left", "right"
+    std::array<double, 3> up{}, forward{}, heel_point{}, toe_point{};
+    double featherline_confidence = 0.0, topline_confidence = 0.0, sides_confidence = 0.0;
+    std::vector<FoundCurve> curves;
+    std::int32_t lateral_vertex = 0, medial_vertex = 0;
+};
+
 struct AddedVertices {
     std::uint64_t count = 0;
     double smallest_angle_deg = 0.0;  ///< of the triangles that curves made
@@ -132,6 +148,7 @@ struct FlattenResult {
     std::vector<WarningResult> warnings;
     std::vector<RepairResult> repairs;
     std::optional<AddedVertices> added;
+    std::optional<FoundLandmarks> found;
     double load_ms = 0.0, cut_ms = 0.0, parameterize_ms = 0.0, constrain_ms = 0.0, total_ms = 0.0;
     std::string version;
 };

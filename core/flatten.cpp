@@ -7,6 +7,7 @@
 #include "core/constrain/check_constraints.h"
 #include "core/constrain/resolve_conflicts.h"
 #include "core/constrain/scale_to_locks.h"
+#include "core/landmarks/bare_last.h"
 #include "core/measure/check_result.h"
 #include "core/parallel.h"
 #include "core/parameterize/start.h"
@@ -213,6 +214,31 @@ void finish(const std::vector<Region>& regions, std::vector<Group> groups, std::
 
 }  // namespace
 
+std::optional<Landmarks> fill_in_landmarks(const SurfaceMesh& surface, FlattenOptions& options) {
+    const bool says_something = !options.curves.empty() || !options.cut.cuts.empty() ||
+                                !options.cut.regions.empty() || !options.weld.groups.empty() ||
+                                !options.constraints.empty();
+    const auto is_open = [&] {
+        return std::any_of(surface.mesh.edges_begin(), surface.mesh.edges_end(),
+                           [&](auto edge) { return surface.mesh.is_boundary(edge); });
+    };
+    if (says_something || is_open()) return std::nullopt;
+    Landmarks found = find_landmarks(surface);
+    options.curves = found.curves;
+    options.cut = found.cut;
+    options.constraints = {lock("centre_front"), lock("heel")};
+    return found;
+}
+
+InsertedCurves put_curves(SurfaceMesh& surface, const FlattenOptions& options, bool found) {
+    try {
+        return insert_curves(surface, locate_curves(surface, options.curves, options.points));
+    } catch (const Error& error) {
+        if (found) fail_search(error.what());
+        throw;
+    }
+}
+
 /// A vertex that was welded to another is named by that one.
 void name_welded_vertices(const SurfaceMesh& surface, FlattenOptions& options) {
     const auto rename = [&](Index& vertex) {
@@ -230,7 +256,6 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& asked, Progr
     FlattenResult result;
     FlattenOptions options = asked;
     result.method = options.method.name;
-    result.asked = options.constraints;
     result.draw_fan = options.draw_fan;
     Stopwatch total, watch;
 
@@ -242,11 +267,13 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& asked, Progr
     SurfaceMesh surface = weld(raw, options.weld);
     result.warnings = std::move(surface.warnings);
     result.repairs = std::move(surface.repairs);
+    result.found = fill_in_landmarks(surface, options);
+    if (result.found) append(result.warnings, result.found->warnings);
+    result.asked = options.constraints;
     name_welded_vertices(surface, options);
 
     progress.reach(Stage::cut, 0.2);
-    InsertedCurves inserted =
-        insert_curves(surface, locate_curves(surface, options.curves, options.points));
+    InsertedCurves inserted = put_curves(surface, options, result.found.has_value());
     const Curves& curves = inserted.curves;
     result.file_vertices = surface.welded_to.size();
     result.added_vertices = std::move(inserted.added);

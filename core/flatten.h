@@ -6,6 +6,7 @@
 #include "core/constrain/resolve_conflicts.h"
 #include "core/cut/cut.h"
 #include "core/fan/geodesic_fan.h"
+#include "core/landmarks/landmarks.h"
 #include "core/layout/sheet.h"
 #include "core/load/load_model.h"
 #include "core/locate/curves.h"
@@ -63,12 +64,23 @@ struct FlattenResult {
     std::vector<Warning> warnings;
     /// Vertices that curves made, in the order of their ids, which follow those of the file.
     std::vector<SurfacePlace> added_vertices;
+    std::optional<Landmarks> found;     ///< of a bare last
     double smallest_added_angle = 0.0;  ///< of the triangles that curves made; radians
     std::size_t file_vertices = 0;
     std::vector<Repair> repairs;  ///< what was changed in the model before
     Timing timing;
     bool draw_fan = false;
 };
+
+/// A request that says nothing of curves, cuts, regions or groups, of a closed last: what it would
+/// have said is found (see `find_landmarks`) and filled in, with the centre line locked.
+[[nodiscard]] std::optional<Landmarks> fill_in_landmarks(const SurfaceMesh& surface,
+                                                         FlattenOptions& options);
+
+/// The curves of the options as edges of the surface; `found`: nobody has asked for them by name.
+/// Throws: Error, as `locate_curves` and `insert_curves`; for found ones Error{region_invalid}.
+[[nodiscard]] InsertedCurves put_curves(SurfaceMesh& surface, const FlattenOptions& options,
+                                        bool found);
 
 /// Ids of vertices that were welded away become the ids of those that stand for them.
 void name_welded_vertices(const SurfaceMesh& surface, FlattenOptions& options);

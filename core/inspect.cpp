@@ -96,8 +96,11 @@ Inspection inspect(std::string_view model, const FlattenOptions& asked) {
     measure_surface(surface.mesh, found);
     name_welded_vertices(surface, options);
     try {
-        const Curves curves =
-            insert_curves(surface, locate_curves(surface, options.curves, options.points)).curves;
+        found.landmarks = fill_in_landmarks(surface, options);
+        if (found.landmarks)
+            found.warnings.insert(found.warnings.end(), found.landmarks->warnings.begin(),
+                                  found.landmarks->warnings.end());
+        const Curves curves = put_curves(surface, options, found.landmarks.has_value()).curves;
         const auto regions = cut_into_regions(surface, curves, options.cut);
         check_constraints(options.constraints, curves, regions);
         check_zones(options.weights.zones, curves, regions);

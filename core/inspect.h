@@ -29,6 +29,7 @@ struct Inspection {
     std::optional<Error> fault;  ///< why it cannot be cut into regions as asked
     std::vector<Warning> warnings;
     std::vector<Repair> repairs;
+    std::optional<Landmarks> landmarks;  ///< of a bare last
 };
 
 /// Runs the stages before the flattening.

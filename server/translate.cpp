@@ -296,6 +296,26 @@ FlattenOptions to_options(const api::FlattenRequest& request) {
     return options;
 }
 
+api::FoundLandmarks to_wire(const Landmarks& found) {
+    api::FoundLandmarks wire{found.foot == Foot::left ? "left" : "right",
+                             to_wire(found.up),
+                             to_wire(found.forward),
+                             to_wire(found.heel_point),
+                             to_wire(found.toe_point),
+                             found.featherline_confidence,
+                             found.topline_confidence,
+                             found.sides_confidence,
+                             {},
+                             found.cut.regions[0].vertex.value(),
+                             found.cut.regions[1].vertex.value()};
+    for (const CurveSource& curve : found.curves) {
+        wire.curves.push_back({curve.name, curve.vertices, {}});
+        for (const Vec3& point : curve.polyline)
+            wire.curves.back().polyline.push_back(to_wire(point));
+    }
+    return wire;
+}
+
 std::vector<api::RepairResult> to_wire(const std::vector<Repair>& repairs) {
     std::vector<api::RepairResult> wire;
     for (const Repair& repair : repairs) {
@@ -312,6 +332,7 @@ api::FlattenResult to_wire(const FlattenResult& result) {
         wire.regions.push_back(to_wire(flat, result.method));
         trace_back(result, wire.regions.back());
     }
+    if (result.found) wire.found = to_wire(*result.found);
     if (!result.added_vertices.empty())
         wire.added = {
             {result.added_vertices.size(), result.smallest_added_angle * 180.0 / std::numbers::pi}};

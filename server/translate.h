@@ -10,6 +10,7 @@ namespace lastflat::server {
 [[nodiscard]] FlattenOptions to_options(const api::FlattenRequest& request);
 
 [[nodiscard]] api::FlattenResult to_wire(const FlattenResult& result);
+[[nodiscard]] api::FoundLandmarks to_wire(const Landmarks& found);
 [[nodiscard]] std::vector<api::RepairResult> to_wire(const std::vector<Repair>& repairs);
 
 }  // namespace lastflat::server

@@ -145,17 +145,18 @@ private:
     template <class Fail>
     SurfacePlace on_surface(const Vec3& position, const Fail& fail) {
         const auto nearest = search().nearest(position);
-        if (nearest.distance > drawn_reach_mm)
+        const double most = drawn_reach * search().size();
+        if (nearest.distance > most)
             fail("the point is " + millimetres(nearest.distance) +
-                 " away from the surface (at most " + millimetres(drawn_reach_mm) +
+                 " away from the surface (at most " + millimetres(most) +
                  "); are the units right?");
         return nearest.place;
     }
 
-    void snap(SurfacePlace& end, const std::vector<SurfaceLine>& others) const {
+    void snap(SurfacePlace& end, const std::vector<SurfaceLine>& others) {
         const Vec3 at = position_of(surface_, end);
         SurfacePlace best = end;
-        double least = drawn_snap_mm;
+        double least = drawn_end_reach * search().size();
         const auto consider = [&](const SurfacePlace& a, const SurfacePlace& b) {
             const Vec3 from = position_of(surface_, a), along = position_of(surface_, b) - from;
             if (along.squaredNorm() == 0.0) return;

@@ -35,12 +35,13 @@ struct SurfaceLine {
 };
 
 /// How far a drawn point may be from the surface, and how near to another curve or to the border
-/// the end of a drawn curve must be to be put on it. mm.
-inline constexpr double drawn_reach_mm = 5.0, drawn_snap_mm = 1.0;
+/// the end of a drawn curve must be to be put on it, as shares of the surface's size: about 6 mm
+/// and 1.2 mm on a last.
+inline constexpr double drawn_reach = 0.02, drawn_end_reach = 0.004;
 
 /// Finds every curve on the surface, in the order of the sources. Shortest paths are exact. The
 /// ends of shortest paths and polylines that were given in space are put on the border or another
-/// curve within `drawn_snap_mm`: vertex paths and groups' lines count first, then shortest paths,
+/// curve within `drawn_end_reach`: vertex paths and groups' lines count first, then shortest paths,
 /// then what is drawn, each in its order.
 ///
 /// Throws: Error{curve_invalid} naming the curve, the item and the place, if an id does not exist

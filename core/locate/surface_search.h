@@ -17,6 +17,8 @@ public:
         double distance;  ///< mm
     };
     [[nodiscard]] Nearest nearest(const Vec3& position) const;
+    /// The diagonal of the box around the surface.
+    [[nodiscard]] double size() const { return search_.size(); }
 
 private:
     const SurfaceMesh& surface_;

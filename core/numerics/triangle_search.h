@@ -19,6 +19,7 @@ public:
         double distance;
     };
     [[nodiscard]] Nearest nearest(const Vec3& position) const;
+    [[nodiscard]] double size() const { return size_; }
 
 private:
     struct Order {

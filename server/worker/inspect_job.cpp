@@ -47,6 +47,7 @@ Json report_json(const Inspection& found) {
                 {"regions", std::move(regions)},
                 {"warnings", std::move(warnings)},
                 {"repairs", api::repairs_json(to_wire(found.repairs))}};
+    if (found.landmarks) report["found"] = api::found_json(to_wire(*found.landmarks));
     if (found.fault) report["problem"] = api::problem_json(problem_of(*found.fault));
     return report;
 }

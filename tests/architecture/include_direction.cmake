@@ -1,7 +1,7 @@
 # Fails when a file includes a folder that it must not know: stages of core see only earlier stages,
 # api and core do not see each other, nobody but the server sees the server, and of the libraries
 # tinygltf and httplib are each seen by one file.
-set(core_chain core core/numerics core/load core/weld core/geodesic core/locate core/cut core/fan core/border
+set(core_chain core core/numerics core/load core/weld core/geodesic core/locate core/cut core/landmarks core/fan core/border
                core/parameterize core/constrain core/layout core/outline core/measure core/map core/export core/sample)
 
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/core/*.h ${ROOT}/core/*.cpp ${ROOT}/api/*.h

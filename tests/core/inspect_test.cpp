@@ -29,7 +29,7 @@ TEST_SUITE("core/inspect") {
             inspect("v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n", {});
         CHECK(found.border_loops_mm.empty());
         REQUIRE(found.fault.has_value());
-        CHECK(found.fault->code() == ErrorCode::region_not_disk);
+        CHECK(found.fault->code() == ErrorCode::region_invalid);
         CHECK(found.regions.empty());
     }
 

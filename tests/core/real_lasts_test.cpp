@@ -7,10 +7,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <sstream>
 
 #include "api/flatten_request.h"
 #include "core/flatten.h"
 #include "server/translate.h"
+#include "tests/helpers/curve_distance.h"
 
 namespace lastflat {
 namespace {
@@ -33,6 +35,15 @@ std::string bytes_of(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     REQUIRE(file.good());
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+std::string without_groups(const std::string& obj) {
+    std::string text;
+    std::istringstream lines(obj);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.rfind("g ", 0) != 0) text += line + "\n";
+    }
+    return text;
 }
 
 FlattenResult flatten_last(const std::string& name, std::size_t threads = 2) {
@@ -107,6 +118,54 @@ TEST_SUITE("core/real_lasts") {
         CHECK_THROWS_AS((void)flatten(bytes_of(folder() / "uomo_t10_size42_upper_disk_10k.obj"),
                                       welded, progress),
                         Error);
+    }
+
+    TEST_CASE("a bare last: its curves, sides and foot are found, and its halves are as good") {
+        if (skipped()) return;
+        for (std::size_t n = 0; n < 2; ++n) {
+            const std::string name = lateral[n].name;
+            CAPTURE(name);
+            const std::string bytes = bytes_of(folder() / (name + "_closed.obj"));
+            const auto request = api::flatten_request_from_json(
+                bytes_of(folder() / (name + "_closed.request.json")));
+            const RawMesh raw = load_model(bytes);
+            Progress progress;
+            const FlattenResult result = flatten(without_groups(bytes), {}, progress);
+            REQUIRE(result.found.has_value());
+            CHECK(result.found->foot == Foot::right);
+            for (const CurveSource& curve : result.found->curves) {
+                Points3 found = curve.polyline, truth;
+                for (const Index v : curve.vertices)
+                    found.push_back(raw.positions[static_cast<std::size_t>(v)]);
+                for (const auto& wire : request.curves) {
+                    if (wire.name != curve.name) continue;
+                    for (const Index v : wire.vertices)
+                        truth.push_back(raw.positions[static_cast<std::size_t>(v)]);
+                }
+                const auto there = test::distance_between(truth, found);
+                const auto back = test::distance_between(found, truth);
+                const bool closed = curve.name == "featherline" || curve.name == "topline";
+                CAPTURE(curve.name);
+                CHECK(std::max(there.mean, back.mean) < (closed ? 1.0 : 1.5));
+                CHECK(std::max(there.most, back.most) < 3.0);
+            }
+            REQUIRE(result.regions.size() == 2);
+            for (std::size_t side = 0; side < 2; ++side) {
+                const double best = (side == 0 ? lateral : medial)[n].dirichlet - 1.0;
+                const double ours = result.regions[side].metrics.symmetric_dirichlet - 1.0;
+                CHECK(std::abs(ours / best - 1.0) < 0.05);
+            }
+        }
+    }
+
+    TEST_CASE(
+        "a CAD export in patches with gaps is one closed last, and is flattened as it comes") {
+        if (skipped()) return;
+        Progress progress;
+        const FlattenResult result =
+            flatten(bytes_of(folder() / "uomo_t10_size42_raw_rhino_rendermesh.obj"), {}, progress);
+        CHECK(result.regions.size() == 2);
+        CHECK(result.repairs.size() == 3);
     }
 }
 

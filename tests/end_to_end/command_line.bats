@@ -49,7 +49,8 @@ refuses() {
     assert_equal "$(jq -r .pointer <<< "$stderr")" /lock
     jq -c '.cuts = ["none"]' "$sample/last.request.json" > no_curve.json
     refuses 2 422 curve_invalid "$sample/last.obj" --request no_curve.json
-    refuses 2 422 region_not_disk "$sample/last.obj"
+    printf 'v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' > no_last.obj
+    refuses 2 422 region_invalid no_last.obj
     echo 'v 1 2' > broken.obj
     refuses 2 422 unreadable_model broken.obj
     refuses 2 404 file_unreadable no_such.obj
@@ -97,4 +98,24 @@ refuses() {
     for file in "$examples"/sample-last/last.*; do [[ -f $file ]] && shipped+=("$file"); done
     (( ${#shipped[@]} )) || skip "client-examples/sample-last has no files"
     for file in "${shipped[@]}"; do cmp "$file" "again/${file##*/}"; done
+}
+
+@test "a bare last needs no request, and what is found may be sent back" {
+    grep -v '^g ' "$sample/last.obj" > bare.obj
+    "$LASTFLAT" flatten bare.obj --out bare
+    jq -e '.found.foot == "right" and (.regions | map(.name)) == ["lateral", "medial"] and .warnings == []' bare/result.json
+    jq -e '[.regions[].curves[] | select(.locked)] | length == 4 and all(.verdict == "pass")' bare/result.json
+    jq .found.request bare/result.json > found.json
+    "$LASTFLAT" flatten bare.obj --request found.json --out again
+    jq -e --slurpfile first bare/result.json '[.regions[].metrics.symmetric_dirichlet] as $b
+        | [$first[0].regions[].metrics.symmetric_dirichlet] | [., $b] | transpose | all((.[0] - .[1]) | fabs < 1e-6)' again/result.json
+    "$LASTFLAT" inspect bare.obj | jq -e '.flattens and .found.confidence.featherline > 0.9 and .surface.closed'
+}
+
+@test "points of the last are found on the pattern, and the way back" {
+    "$LASTFLAT" flatten "$sample/last.obj" --request "$sample/last.request.json" --out flat
+    echo '{"to_last": {"region": "lateral", "points": [[5, 5]]}}' > there.json
+    "$LASTFLAT" map flat/flat.obj there.json > there.out
+    jq '{to_pattern: {region: "lateral", points: [.to_last.points[0].position]}}' there.out > back.json
+    "$LASTFLAT" map flat/flat.obj back.json | jq -e '.to_pattern.points[0].uv_mm | all((. - 5) | fabs < 1e-6)'
 }

@@ -14,6 +14,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -176,7 +177,7 @@ def walk_more(walk, example):
     report = walk.expect(200, None, "POST", "/v1/validate", body=json.dumps(by_asset).encode(), headers=[json_type])
     assert report["flattens"] and report["surface"]["border_loops_mm"], report
     closed = walk.expect(200, None, "POST", "/v1/validate", body=b"v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n")
-    assert not closed["flattens"] and closed["problem"]["code"] == "region_not_disk", closed
+    assert not closed["flattens"] and closed["problem"]["code"] == "region_invalid", closed
     walk.expect(422, "unreadable_model", "POST", "/v1/validate", body=b"hello")
 
     post_asset = dict(body=json.dumps(by_asset).encode())
@@ -261,6 +262,12 @@ def walk_sample(walk, program):
     id = walk.post(model, request)
     walk.wait_for(id, "succeeded")
     walk.expect(200, None, "GET", "/v1/jobs/{id}/result", id=id)
+    # Without a word: what the request would have said is found, and may be sent back.
+    id = walk.post(re.sub(rb"(?m)^g .*\n", b"", model))
+    walk.wait_for(id, "succeeded")
+    bare = walk.expect(200, None, "GET", "/v1/jobs/{id}/result", id=id)
+    assert [r["name"] for r in bare["regions"]] == ["lateral", "medial"] and bare["found"]["foot"] == "right", bare["found"]
+    walk.contract.check_value("the request found", {"$ref": "#/components/schemas/FlattenRequest"}, bare["found"]["request"])
 
 
 def main():

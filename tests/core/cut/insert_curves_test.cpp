@@ -21,7 +21,7 @@ RawMesh bumpy(int n) {
     for (int j = 0; j <= n; ++j) {
         for (int i = 0; i <= n; ++i) {
             const double x = 100.0 * i / n, y = 100.0 * j / n;
-            raw.positions.emplace_back(x, y, 5 * std::sin(x / 17) * std::cos(y / 23));
+            raw.positions.emplace_back(x, y, 2 * std::sin(x / 17) * std::cos(y / 23));
         }
     }
     for (int j = 0; j < n; ++j) {

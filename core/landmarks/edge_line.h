@@ -1,0 +1,20 @@
+// Lines along the sharp edges of a last.
+#pragma once
+
+#include "core/landmarks/bare_last.h"
+#include "core/locate/curves.h"
+
+namespace lastflat {
+
+/// From this share on a line is taken for sharp, and its gaps are bridged.
+inline constexpr double mostly_sharp = 0.75;
+
+/// A closed line of a cut as a curve, and how sure it is: the share of its length that is sharp.
+/// Sharp all the way, it stays a path of vertices. Where it fades out and comes back, it follows
+/// the last of the edge and bridges the rest as it went. Mostly smooth, it is evened out.
+[[nodiscard]] std::pair<CurveSource, double> edge_line(const SurfaceMesh& surface,
+                                                       const std::vector<BareFace>& faces,
+                                                       const std::string& name,
+                                                       const std::vector<Index>& line);
+
+}  // namespace lastflat

@@ -1,0 +1,288 @@
+#include "core/landmarks/landmarks.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "core/landmarks/edge_line.h"
+#include "core/landmarks/sole_and_top.h"
+#include "core/locate/surface_search.h"
+
+namespace lastflat {
+namespace {
+
+/// The longest closed section of the surface with a plane: the faces in their order, and where the
+/// section enters each.
+struct Section {
+    std::vector<Index> faces;
+    Points3 entries;
+};
+
+Section section_of(const SurfaceMesh& surface, const Vec3& origin, const Vec3& normal) {
+    const auto side = [&](Index v) { return normal.dot(surface.position(v) - origin) > 0.0; };
+    const auto crosses = [&](OpenMesh::HalfedgeHandle h) {
+        return !side(surface.mesh.from_vertex_handle(h).idx()) &&
+               side(surface.mesh.to_vertex_handle(h).idx());
+    };
+    std::vector<bool> seen(surface.mesh.n_faces(), false);
+    Section best;
+    double longest = 0.0;
+    for (const auto start : surface.mesh.halfedges()) {
+        if (!crosses(start) ||
+            seen[static_cast<std::size_t>(surface.mesh.face_handle(start).idx())])
+            continue;
+        Section section;
+        double length = 0.0;
+        OpenMesh::HalfedgeHandle h = start;
+        do {  // into the face over a side that rises, out of it over the one that falls
+            const Index face = surface.mesh.face_handle(h).idx();
+            seen[static_cast<std::size_t>(face)] = true;
+            const Vec3 a = surface.position(surface.mesh.from_vertex_handle(h).idx());
+            const Vec3 b = surface.position(surface.mesh.to_vertex_handle(h).idx());
+            const double below = normal.dot(a - origin), above = normal.dot(b - origin);
+            const Vec3 at = a + below / (below - above) * (b - a);
+            if (!section.entries.empty()) length += (at - section.entries.back()).norm();
+            section.faces.push_back(face);
+            section.entries.push_back(at);
+            do h = surface.mesh.next_halfedge_handle(h);
+            while (!crosses(surface.mesh.opposite_halfedge_handle(h)));
+            h = surface.mesh.opposite_halfedge_handle(h);
+        } while (h != start && section.faces.size() <= surface.mesh.n_faces());
+        if (length <= longest) continue;
+        longest = length;
+        best = std::move(section);
+    }
+    return best;
+}
+
+/// The stretches of a section that lie on marked faces, each as the points from end to end and, at
+/// both ends, `further` mm beyond.
+std::vector<Points3> stretches(const Section& section, const std::vector<bool>& marked,
+                               double further) {
+    const std::size_t n = section.faces.size();
+    const auto is_marked = [&](std::size_t i) {
+        return marked[static_cast<std::size_t>(section.faces[i % n])];
+    };
+    const auto entry = [&](std::size_t i) { return section.entries[i % n]; };
+    std::vector<Points3> found;
+    for (std::size_t begin = 0; begin < n; ++begin) {
+        if (!is_marked(begin) || is_marked(begin + n - 1)) continue;
+        std::size_t end = begin;
+        while (end < begin + n && is_marked(end)) ++end;
+        std::size_t first = begin + n, last = end + n;
+        while (first > end + 1 && (entry(first) - entry(begin)).norm() < further) --first;
+        while (last < first + n - 1 && (entry(last) - entry(end)).norm() < further) ++last;
+        found.emplace_back();
+        for (std::size_t k = first; k <= last; ++k) found.back().push_back(entry(k));
+    }
+    return found;
+}
+
+/// The two points of a line that are furthest apart.
+std::pair<Vec3, Vec3> furthest_pair(const Points3& line, const Vec3& forward) {
+    std::pair<Vec3, Vec3> best{line.front(), line.front()};
+    const std::size_t step = std::max<std::size_t>(1, line.size() / 1000);
+    for (std::size_t i = 0; i < line.size(); i += step) {
+        for (std::size_t j = i + 1; j < line.size(); ++j) {
+            if ((line[i] - line[j]).squaredNorm() > (best.first - best.second).squaredNorm())
+                best = {line[i], line[j]};
+        }
+    }
+    if (forward.dot(best.second - best.first) < 0.0) std::swap(best.first, best.second);
+    return best;
+}
+
+/// How far the line reaches to the left and to the right of the plane, at the waist.
+std::pair<double, double> waist(const Points3& line, const Vec3& heel, const Vec3& toe,
+                                const Vec3& left) {
+    const Vec3 way = toe - heel;
+    std::pair<double, double> reach{0.0, 0.0};
+    int counted_left = 0, counted_right = 0;
+    for (const Vec3& p : line) {
+        const double share = way.dot(p - heel) / way.squaredNorm();
+        if (share < 0.3 || share > 0.55) continue;
+        const double off = left.dot(p - heel);
+        (off > 0.0 ? reach.first : reach.second) += std::abs(off);
+        ++(off > 0.0 ? counted_left : counted_right);
+    }
+    return {reach.first / std::max(1, counted_left), reach.second / std::max(1, counted_right)};
+}
+
+/// A vertex of one side of the upper, far from every curve.
+std::optional<Index> vertex_of_side(const SurfaceMesh& surface, const std::vector<bool>& upper,
+                                    const std::vector<CurveSource>& curves, const Vec3& origin,
+                                    const Vec3& outward) {
+    constexpr std::size_t looked_at = 2000, corners = 200;
+    Points3 on_curves;
+    for (const CurveSource& curve : curves) {
+        const Points3 points =
+            curve.polyline.empty() ? positions_of(surface, curve.vertices) : curve.polyline;
+        for (std::size_t i = 0; i < points.size(); i += points.size() / corners + 1)
+            on_curves.push_back(points[i]);
+    }
+    std::optional<Index> best;
+    double furthest = 0.0;
+    const auto step = static_cast<int>(surface.mesh.n_vertices() / looked_at + 1);
+    for (int v = 0; v < static_cast<int>(surface.mesh.n_vertices()); v += step) {
+        const OpenMesh::VertexHandle vertex(v);
+        const Vec3 at = surface.position(v);
+        if (surface.mesh.is_isolated(vertex) || outward.dot(at - origin) <= 0.0) continue;
+        bool inside = true;
+        for (const auto face : surface.mesh.vf_range(vertex))
+            inside = inside && upper[static_cast<std::size_t>(face.idx())];
+        double distance = std::numeric_limits<double>::infinity();
+        for (const Vec3& point : on_curves) distance = std::min(distance, (point - at).norm());
+        if (!inside || distance <= furthest) continue;
+        furthest = distance;
+        best = v;
+    }
+    return best;
+}
+
+void check_surface(const SurfaceMesh& surface) {
+    if (surface.mesh.n_faces() > most_bare_triangles)
+        fail_search("it has more than " + std::to_string(most_bare_triangles) + " triangles");
+    for (const auto edge : surface.mesh.edges()) {
+        if (surface.mesh.is_boundary(edge)) fail_search("the surface is open");
+    }
+    const std::vector<bool> all(surface.mesh.n_faces(), true);
+    const auto piece = piece_of(surface, all, 0);
+    if (std::find(piece.begin(), piece.end(), false) != piece.end())
+        fail_search("the model is more than one piece");
+}
+
+void find_sides(const SurfaceMesh& surface, const std::vector<bool>& upper, const Points3& line,
+                Landmarks& found) {
+    const Vec3 left = found.up.cross(found.forward).normalized();
+    const auto [to_left, to_right] = waist(line, found.heel_point, found.toe_point, left);
+    const double difference = (to_right - to_left) / (to_right + to_left);
+    found.foot = difference > 0.0 ? Foot::right : Foot::left;
+    constexpr double beyond_doubt = 0.2;
+    found.sides_confidence = std::min(1.0, std::abs(difference) / beyond_doubt);
+    const Vec3 medial = difference > 0.0 ? left : Vec3(-left);
+    const auto lateral_vertex =
+        vertex_of_side(surface, upper, found.curves, found.heel_point, -medial);
+    const auto medial_vertex =
+        vertex_of_side(surface, upper, found.curves, found.heel_point, medial);
+    if (!lateral_vertex || !medial_vertex) fail_search("the upper has no two sides");
+    found.cut.regions = {{"lateral", lateral_vertex, {}}, {"medial", medial_vertex, {}}};
+}
+
+/// The stretch of the upper in the plane through the heel, the toe and a third point that begins
+/// nearest to `from`.
+Points3 upper_section(const SurfaceMesh& surface, const std::vector<bool>& upper,
+                      const Landmarks& found, const Vec3& third, const Vec3& from) {
+    const Vec3 normal =
+        (found.toe_point - found.heel_point).cross(third - found.heel_point).normalized();
+    // What was evened out has moved away from the faces' borders: the line goes beyond it.
+    const double further = 0.03 * (found.toe_point - found.heel_point).norm();
+    const bool exact =
+        found.featherline_confidence >= mostly_sharp && found.topline_confidence >= mostly_sharp;
+    auto lines =
+        stretches(section_of(surface, found.heel_point, normal), upper, exact ? 0.0 : further);
+    const auto off = [&](const Points3& line) {
+        return std::min((line.front() - from).norm(), (line.back() - from).norm());
+    };
+    const auto best =
+        std::min_element(lines.begin(), lines.end(),
+                         [&](const Points3& a, const Points3& b) { return off(a) < off(b); });
+    if (best == lines.end()) fail_search("the middle plane does not meet the upper");
+    if ((best->back() - from).norm() < (best->front() - from).norm())
+        std::reverse(best->begin(), best->end());
+    return *best;
+}
+
+void find_centre_line(const SurfaceMesh& surface, const std::vector<bool>& upper,
+                      const Points3& topline, Landmarks& found) {
+    const auto [back, front] = furthest_pair(topline, found.forward);
+    found.curves.push_back({"centre_front"});
+    found.curves.back().polyline = upper_section(surface, upper, found, front, found.toe_point);
+    found.curves.push_back({"heel"});
+    found.curves.back().polyline = upper_section(surface, upper, found, back, found.heel_point);
+}
+
+void warn_if_unsure(Landmarks& found) {
+    const auto warn = [&](bool sure, double confidence, const char* what, const char* mend) {
+        if (sure) return;
+        found.warnings.push_back({"landmark_unsure",
+                                  std::string("not sure of ") + what + " (confidence " +
+                                      std::to_string(confidence).substr(0, 4) + "): " + mend,
+                                  std::nullopt});
+    };
+    for (const auto& [confidence, what] :
+         {std::pair(found.featherline_confidence, "the featherline"),
+          std::pair(found.topline_confidence, "the topline")})
+        warn(confidence >= mostly_sharp, confidence, what,
+             "it is not a sharp edge all along; look at it, and send it corrected as a curve");
+    warn(found.sides_confidence >= sure_of_sides, found.sides_confidence, "lateral and medial",
+         "both sides are much alike; name the regions");
+}
+
+/// A sole is a fifth to two fifths of a last, its top a small part.
+void check_shares(const std::vector<BareFace>& faces, const SoleAndTop& parts) {
+    double all = 0.0, sole = 0.0, top = 0.0;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        all += faces[f].area;
+        sole += parts.sole[f] ? faces[f].area : 0.0;
+        top += parts.top[f] ? faces[f].area : 0.0;
+    }
+    if (sole < 0.15 * all || sole > 0.45 * all) fail_search("no side is a sole by its size");
+    if (top < 0.003 * all || top > 0.12 * all) fail_search("there is no top of the right size");
+}
+
+/// What is found if the last stands as the frame says.
+Landmarks found_with(const SurfaceMesh& surface, const std::vector<BareFace>& faces,
+                     const LastFrame& frame) {
+    const SoleAndTop parts = sole_and_top(surface, faces, frame);
+    std::vector<bool> upper(faces.size());
+    for (std::size_t f = 0; f < faces.size(); ++f) upper[f] = !parts.sole[f] && !parts.top[f];
+    const auto featherline = line_around(surface, parts.sole, "featherline");
+    const auto topline = line_around(surface, parts.top, "topline");
+    Landmarks found;
+    found.curves.resize(2);
+    std::tie(found.curves[0], found.featherline_confidence) =
+        edge_line(surface, faces, "featherline", featherline);
+    std::tie(found.curves[1], found.topline_confidence) =
+        edge_line(surface, faces, "topline", topline);
+    const SurfaceSearch search(surface);
+    for (CurveSource& curve : found.curves) {
+        for (Vec3& point : curve.polyline) point = search.nearest(point).position;
+        if (!curve.polyline.empty()) curve.polyline.back() = curve.polyline.front();
+    }
+    const Points3 line = positions_of(surface, featherline);
+    std::tie(found.heel_point, found.toe_point) = furthest_pair(line, frame.forward);
+    found.forward = (found.toe_point - found.heel_point).normalized();
+    found.up = (frame.up - frame.up.dot(found.forward) * found.forward).normalized();
+    check_shares(faces, parts);
+    find_centre_line(surface, upper, positions_of(surface, topline), found);
+    find_sides(surface, upper, line, found);
+    found.cut.cuts = {"featherline", "topline", "centre_front", "heel"};
+    return found;
+}
+
+}  // namespace
+
+Landmarks find_landmarks(const SurfaceMesh& surface) {
+    check_surface(surface);
+    const auto faces = bare_faces(surface);
+    std::optional<Landmarks> best;
+    std::optional<Error> why;
+    const auto sureness = [](const Landmarks& found) {
+        return found.featherline_confidence + found.topline_confidence;
+    };
+    for (const LastFrame& frame : last_frames(faces)) {
+        try {
+            Landmarks found = found_with(surface, faces, frame);
+            if (!best || sureness(found) > sureness(*best)) best = std::move(found);
+        } catch (const Error& error) {
+            if (!why) why = error;
+        }
+    }
+    if (!best) throw why.value();
+    warn_if_unsure(*best);
+    return *best;
+}
+
+}  // namespace lastflat
