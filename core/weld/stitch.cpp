@@ -322,7 +322,57 @@ bool zip_one_pair(Faces& faces, double tolerance, double& furthest, RepairNote& 
     return false;
 }
 
+/// What a border vertex lies on, but for the ends of edges.
+Insertions vertices_on_edges(const Faces& faces, double tolerance) {
+    std::vector<Side> border;
+    for_each_edge(sides_by_edge(faces.triangles), [&](auto first, auto last) {
+        if (last - first == 1) border.push_back(*first);
+    });
+    std::vector<Box3> boxes;
+    for (const Side& side : border) {
+        Box3 box(faces.position(side.low));
+        boxes.push_back(box.extend(faces.position(side.high)));
+    }
+    const BoxTree<Box3> tree(boxes);
+    std::map<std::pair<Index, Index>, std::vector<std::pair<double, Index>>> found;
+    for (const Side& side : border) {
+        const Index v = side.from();
+        const Vec3& at = faces.position(v);
+        const Box3 box(at - Vec3::Constant(tolerance), at + Vec3::Constant(tolerance));
+        tree.find(box, [&](Index i) {
+            const Side& edge = border[static_cast<std::size_t>(i)];
+            const Vec3& a = faces.position(edge.from());
+            const Vec3 way = faces.position(edge.to()) - a;
+            const double along = way.dot(at - a) / way.norm();
+            const bool inside = along > 2.0 * tolerance && along < way.norm() - 2.0 * tolerance;
+            if (v != edge.from() && v != edge.to() && inside &&
+                (a + along * way.normalized() - at).norm() <= tolerance)
+                found[{edge.from(), edge.to()}].emplace_back(along, v);
+            return false;
+        });
+    }
+    Insertions insertions;
+    for (auto& [edge, vertices] : found) {
+        std::sort(vertices.begin(), vertices.end());
+        for (const auto& [along, v] : vertices) {
+            if (insertions[edge].empty() || insertions[edge].back() != v)
+                insertions[edge].push_back(v);
+        }
+    }
+    return insertions;
+}
+
 }  // namespace
+
+void close_t_junctions(Faces& faces, double tolerance_mm, std::vector<Repair>& repairs) {
+    const Insertions insertions = vertices_on_edges(faces, tolerance_mm);
+    RepairNote note;
+    for (const auto& [edge, vertices] : insertions) {
+        for (const Index v : vertices) note.at(faces.position(v));
+    }
+    insert_into_edges(faces, insertions);
+    note.write(repairs, "t_junctions_closed", "vertices were put into the edges that they lay on");
+}
 
 void stitch(Faces& faces, double tolerance_mm, std::vector<Repair>& repairs) {
     RepairNote same, joined, inserted;

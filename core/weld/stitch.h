@@ -5,6 +5,10 @@
 
 namespace lastflat {
 
+/// Puts border vertices into the border edges that they lie on, where a coarser face meets finer
+/// ones.
+void close_t_junctions(Faces& faces, double tolerance_mm, std::vector<Repair>& repairs);
+
 /// Closes gaps between whole border loops. Border vertices of one and the same place become one;
 /// two loops that then run along each other all the way, nowhere further apart than `tolerance_mm`,
 /// become one line of edges halfway between them. A vertex without a partner on the other side is

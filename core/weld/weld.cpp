@@ -216,6 +216,8 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options) {
     clean_faces(faces, result.repairs);
     if (faces.triangles.empty())
         throw Error(ErrorCode::mesh_degenerate, "no face is left to flatten");
+    if (options.tolerance_mm || !raw.indexed)
+        close_t_junctions(faces, same_place * size_of(faces), result.repairs);
     wind_alike(faces, result.repairs);
     drop_strays(faces, result.repairs);
     close_borders(options, faces, result.repairs);

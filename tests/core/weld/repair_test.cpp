@@ -117,6 +117,17 @@ TEST_SUITE("core/weld/repair") {
         CHECK(border_edges(weld(far)) == 147);
     }
 
+    TEST_CASE("a coarse face beside finer ones is split where they meet") {
+        RawMesh raw = load_model(
+            "v 0 0 0\nv 8 0 0\nv 4 6 0\nv 0 0 0\nv 4 -6 0\nv 2 0 0\nv 8 0 0\nf 1 2 3\nf 4 5 6\nf 6 "
+            "5 7\n");
+        raw.indexed = false;
+        const SurfaceMesh surface = weld(raw);
+        CHECK(count_of(surface, "t_junctions_closed") == 1);
+        CHECK(surface.mesh.n_faces() == 4);
+        CHECK(border_edges(surface) == 4);
+    }
+
     TEST_CASE("two open halves that touch stay two, unless asked") {
         const std::string halves =
             "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3\nf 1 3 4\nv 9 0 0\nv 18 0 0\nv 18 9 0\nv "
