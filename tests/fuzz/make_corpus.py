@@ -186,8 +186,30 @@ def flatten_seeds():
         seed("flatten", f"{shape}_{choice}", bytes([choices[choice]]) + obj_text(*shapes()[shape]).encode())
 
 
+def stl_and_ply_seeds():
+    points, faces = shapes()["dome"]
+    corners = [[points[i] for i in face] for face in faces]
+    text = "solid dome\n" + "".join(
+        "facet normal 0 0 1\nouter loop\n" + "".join("vertex %.9g %.9g %.9g\n" % tuple(p) for p in triangle) + "endloop\nendfacet\n"
+        for triangle in corners) + "endsolid dome\n"
+    body = b"".join(struct.pack("<12fH", 0, 0, 1, *sum(map(list, triangle), []), 0) for triangle in corners)
+    seed("stl", "text", text)
+    seed("stl", "two_solids", text + text.replace("dome", "second"))
+    seed("stl", "binary", b"scan".ljust(80) + struct.pack("<I", len(corners)) + body)
+    seed("stl", "binary_lies", b"solid".ljust(80) + struct.pack("<I", 0xFFFFFFFF) + body)
+    header = "ply\nformat %s 1.0\nelement vertex %d\nproperty float x\nproperty float y\nproperty double z\nelement face %d\n" \
+        "property list uchar int vertex_indices\nend_header\n"
+    seed("ply", "text", header % ("ascii", len(points), len(faces)) + "".join("%g %g %g\n" % tuple(p) for p in points) +
+         "".join("%d %s\n" % (len(f), " ".join(map(str, f))) for f in faces))
+    for name, order in (("little", "<"), ("big", ">")):
+        seed("ply", name, (header % (f"binary_{name}_endian", len(points), len(faces))).encode() +
+             b"".join(struct.pack(order + "ffd", *p) for p in points) +
+             b"".join(struct.pack(order + "B%di" % len(f), len(f), *f) for f in faces))
+
+
 if __name__ == "__main__":
     obj_seeds()
+    stl_and_ply_seeds()
     gltf_seeds()
     request_seeds()
     http_seeds()
