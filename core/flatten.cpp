@@ -252,17 +252,14 @@ void name_welded_vertices(const SurfaceMesh& surface, FlattenOptions& options) {
     }
 }
 
-FlattenResult flatten(std::string_view model, const FlattenOptions& asked, Progress& progress) {
-    FlattenResult result;
-    FlattenOptions options = asked;
-    result.method = options.method.name;
-    result.draw_fan = options.draw_fan;
-    Stopwatch total, watch;
+namespace {
 
+/// The surface, mended, and what is to be done with it.
+SurfaceMesh read_surface(std::string_view model, FlattenOptions& options, FlattenResult& result,
+                         Stopwatch& watch, Progress& progress) {
     progress.reach(Stage::load, 0.0);
     const RawMesh raw = load_model(model, options.limits);
     result.timing.load_ms = watch.lap();
-
     progress.reach(Stage::weld, 0.1);
     SurfaceMesh surface = weld(raw, options.weld);
     result.warnings = std::move(surface.warnings);
@@ -271,17 +268,35 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& asked, Progr
     if (result.found) append(result.warnings, result.found->warnings);
     result.asked = options.constraints;
     name_welded_vertices(surface, options);
+    return surface;
+}
 
-    progress.reach(Stage::cut, 0.2);
+std::vector<Region> cut_surface(SurfaceMesh& surface, const FlattenOptions& options,
+                                FlattenResult& result) {
     InsertedCurves inserted = put_curves(surface, options, result.found.has_value());
     const Curves& curves = inserted.curves;
     result.file_vertices = surface.welded_to.size();
     result.added_vertices = std::move(inserted.added);
     result.smallest_added_angle = inserted.smallest_angle;
-    const auto regions = cut_into_regions(surface, curves, options.cut);
+    auto regions = cut_into_regions(surface, curves, options.cut);
     check_constraints(options.constraints, curves, regions);
     check_zones(options.weights.zones, curves, regions);
     warn_of_absent_curves(curves, regions, result.warnings);
+    return regions;
+}
+
+}  // namespace
+
+FlattenResult flatten(std::string_view model, const FlattenOptions& asked, Progress& progress) {
+    FlattenResult result;
+    FlattenOptions options = asked;
+    result.method = options.method.name;
+    result.draw_fan = options.draw_fan;
+    Stopwatch total, watch;
+    SurfaceMesh surface = read_surface(model, options, result, watch, progress);
+
+    progress.reach(Stage::cut, 0.2);
+    const auto regions = cut_surface(surface, options, result);
     result.timing.cut_ms = watch.lap();
 
     progress.reach(Stage::parameterize, 0.3);

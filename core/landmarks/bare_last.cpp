@@ -33,6 +33,7 @@ std::vector<Vec3> flat_sides(const std::vector<BareFace>& faces, const Vec3& axi
     std::sort(peaks.begin(), peaks.end(),
               [&](std::size_t a, std::size_t b) { return flatness[a] > flatness[b]; });
     std::vector<Vec3> sides;
+    sides.reserve(peaks.size());
     for (const std::size_t i : peaks) sides.push_back(all[i]);
     return sides;
 }
@@ -41,6 +42,7 @@ std::vector<Vec3> flat_sides(const std::vector<BareFace>& faces, const Vec3& axi
 LastFrame standing(const std::vector<BareFace>& faces, const Vec3& mean, const Vec3& axis,
                    const Vec3& down) {
     std::vector<double> heights;
+    heights.reserve(faces.size());
     for (const BareFace& face : faces) heights.push_back(-down.dot(face.centre - mean));
     std::vector<double> sorted = heights;
     const auto high = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 9 / 10);

@@ -90,7 +90,7 @@ Vec3 end_direction(const Points3& line, double way) {
 
 /// The cubic between the ends of two lines that goes on as they end; without its ends.
 void bridge(const Points3& from, const Points3& to, double scale, Points3& result) {
-    const Vec3 a = from.back(), b = to.back();
+    const Vec3 &a = from.back(), &b = to.back();
     const double span = (b - a).norm();
     const Vec3 leave = span * end_direction(from, 6.0 * scale),
                arrive = -span * end_direction(to, 6.0 * scale);

@@ -159,6 +159,8 @@ bool is_stl(std::string_view bytes) {
 }
 
 RawMesh read_stl(std::string_view bytes, const LoadLimits& limits) {
+    if (bytes.size() < header_bytes && !is_text(bytes))
+        throw Error(ErrorCode::unreadable_model, "STL: the file ends inside its header");
     RawMesh mesh = !fits_exactly(bytes) && is_text(bytes) ? TextReader(bytes, limits).read()
                                                           : read_binary(bytes, limits);
     mesh.indexed = false;

@@ -10,7 +10,7 @@ namespace lastflat {
 /// Throws: Error{curve_invalid} naming the curve, the field, and the item if there is one.
 [[noreturn]] inline void fail_curve(const std::string& curve, const std::string& field,
                                     std::optional<std::size_t> item, const std::string& what,
-                                    std::optional<Vec3> position = std::nullopt) {
+                                    const std::optional<Vec3>& position = std::nullopt) {
     std::vector<std::string> path{"curves", curve, field};
     if (item) path.push_back(std::to_string(*item));
     Error error(ErrorCode::curve_invalid,

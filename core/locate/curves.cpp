@@ -72,6 +72,7 @@ std::vector<Index> vertex_path(const SurfaceMesh& surface, const CurveSource& so
 
 std::vector<SurfacePlace> places_of(const std::vector<Index>& vertices) {
     std::vector<SurfacePlace> places;
+    places.reserve(vertices.size());
     for (const Index v : vertices) places.push_back(SurfacePlace::at_vertex(v));
     return places;
 }

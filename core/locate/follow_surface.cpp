@@ -26,6 +26,28 @@ struct Section {
     [[nodiscard]] double along(const Vec3& p) const { return direction.dot(p - origin); }
 };
 
+/// Where the section meets an edge.
+std::optional<SurfacePlace> meeting(const SurfaceMesh& surface, const Section& section, Index a,
+                                    Index b) {
+    const double side_a = section.side(surface.position(a));
+    const double side_b = section.side(surface.position(b));
+    if (side_a == side_b || side_a * side_b > 0.0) return std::nullopt;
+    constexpr double at_end = 1e-9;
+    const double share = side_a / (side_a - side_b);
+    if (share < at_end) return SurfacePlace::at_vertex(a);
+    if (share > 1.0 - at_end) return SurfacePlace::at_vertex(b);
+    return SurfacePlace::on_edge(a, b, share);
+}
+
+/// Whether an edge leads away from a place: one that the place itself is on does not.
+bool leads_away(const std::vector<Index>& support, Index a, Index b) {
+    const auto supports = [&](Index v) {
+        return std::find(support.begin(), support.end(), v) != support.end();
+    };
+    if (support.size() == 1) return !supports(a) && !supports(b);
+    return support.size() == 3 || !supports(a) || !supports(b);
+}
+
 /// Where the section leaves the faces at a place; the way that leads furthest along.
 std::optional<SurfacePlace> next_place(const SurfaceMesh& surface, const Section& section,
                                        const SurfacePlace& from, double& reached) {
@@ -36,27 +58,10 @@ std::optional<SurfacePlace> next_place(const SurfaceMesh& surface, const Section
         const Triangle corners = corners_of(surface, face);
         for (std::size_t i = 0; i < 3; ++i) {
             const Index a = corners[i], b = corners[(i + 1) % 3];
-            const auto supports = [&](Index v) {
-                return std::find(support.begin(), support.end(), v) != support.end();
-            };
-            // The edge that the place itself is on leads nowhere new.
-            if (support.size() < 3 &&
-                (support.size() == 1 ? supports(a) || supports(b) : supports(a) && supports(b)))
-                continue;
-            const double side_a = section.side(surface.position(a));
-            const double side_b = section.side(surface.position(b));
-            if ((side_a > 0.0) == (side_b > 0.0) && side_a != 0.0 && side_b != 0.0) continue;
-            if (side_a == side_b) continue;
-            double share = side_a / (side_a - side_b);
-            constexpr double at_end = 1e-9;
-            if (share < at_end) share = 0.0;
-            if (share > 1.0 - at_end) share = 1.0;
-            const SurfacePlace place = share == 0.0   ? SurfacePlace::at_vertex(a)
-                                       : share == 1.0 ? SurfacePlace::at_vertex(b)
-                                                      : SurfacePlace::on_edge(a, b, share);
-            const double along = section.along(position_of(surface, place));
-            if (along <= furthest) continue;
-            furthest = along;
+            if (!leads_away(support, a, b)) continue;
+            const auto place = meeting(surface, section, a, b);
+            if (!place || section.along(position_of(surface, *place)) <= furthest) continue;
+            furthest = section.along(position_of(surface, *place));
             best = place;
         }
     }

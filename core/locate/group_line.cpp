@@ -12,7 +12,7 @@ namespace {
 using Edge = std::pair<Index, Index>;
 
 [[noreturn]] void fail(const CurveSource& source, const std::string& what,
-                       std::optional<Vec3> position = std::nullopt) {
+                       const std::optional<Vec3>& position = std::nullopt) {
     fail_curve(source.name, "border_of", std::nullopt, what, position);
 }
 

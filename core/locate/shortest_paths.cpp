@@ -113,6 +113,7 @@ std::vector<SurfacePlace> shortest_paths(const SurfaceMesh& surface,
                                          const std::vector<SurfacePlace>& through) {
     WithPlaces with_places(surface);
     std::vector<Index> stops;
+    stops.reserve(through.size());
     for (const SurfacePlace& place : through) stops.push_back(with_places.vertex_at(place));
     const ExactGeodesics geodesics(with_places.mesh());
     std::vector<SurfacePlace> line{through.front()};

@@ -74,11 +74,11 @@ TriangleSearch::Order TriangleSearch::order_of(const Triangulation& surface) {
     return order;
 }
 
-TriangleSearch::TriangleSearch(Triangulation surface)
+TriangleSearch::TriangleSearch(const Triangulation& surface)
     : TriangleSearch(surface, order_of(surface)) {}
 
-TriangleSearch::TriangleSearch(Triangulation surface, Order order)
-    : surface_(std::move(surface)),
+TriangleSearch::TriangleSearch(const Triangulation& surface, Order order)
+    : surface_(surface),
       triangles_(std::move(order.triangles)),
       tree_(order.boxes),
       size_(order.size) {}

@@ -10,7 +10,7 @@ namespace lastflat {
 
 class TriangleSearch {
 public:
-    explicit TriangleSearch(Triangulation surface);
+    explicit TriangleSearch(const Triangulation& surface);
 
     struct Nearest {
         Index triangle = -1;
@@ -28,7 +28,7 @@ private:
         double size;
     };
     static Order order_of(const Triangulation& surface);
-    TriangleSearch(Triangulation surface, Order order);
+    TriangleSearch(const Triangulation& surface, Order order);
 
     const Triangulation surface_;
     const std::vector<Index> triangles_;

@@ -173,7 +173,7 @@ void wind_alike(Faces& faces, std::vector<Repair>& repairs) {
                 auto& state = turned[static_cast<std::size_t>(next.triangle)];
                 if (state >= 0) continue;
                 state = static_cast<signed char>(turned[here] ^ (next.against ? 1 : 0));
-                turns += state;
+                turns += state == 1 ? 1 : 0;
                 piece.push_back(next.triangle);
             }
         }

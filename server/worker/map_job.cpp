@@ -35,6 +35,7 @@ void walk(const std::vector<Point>& corners, std::size_t& left, const Visit& vis
 template <class Point, class Wire>
 std::vector<Point> points_of(const std::vector<Wire>& wire) {
     std::vector<Point> points;
+    points.reserve(wire.size());
     for (const Wire& p : wire) points.push_back(Eigen::Map<const Point>(p.data()));
     return points;
 }
