@@ -132,8 +132,8 @@ TEST_SUITE("core/cut/insert_curves") {
         }
         for (const auto edge : before.mesh.edges()) {
             const auto h = before.mesh.halfedge_handle(edge, 0);
-            const auto ends = std::minmax(before.mesh.from_vertex_handle(h).idx(),
-                                          before.mesh.to_vertex_handle(h).idx());
+            const std::pair<Index, Index> ends = std::minmax(
+                before.mesh.from_vertex_handle(h).idx(), before.mesh.to_vertex_handle(h).idx());
             std::vector<double> shares = on_edge[ends];
             std::sort(shares.begin(), shares.end());
             CHECK(std::adjacent_find(shares.begin(), shares.end()) == shares.end());
