@@ -124,11 +124,14 @@ std::optional<Index> vertex_of_side(const SurfaceMesh& surface, const std::vecto
     }
     std::optional<Index> best;
     double furthest = 0.0;
-    const auto step = static_cast<int>(surface.mesh.n_vertices() / looked_at + 1);
-    for (int v = 0; v < static_cast<int>(surface.mesh.n_vertices()); v += step) {
-        const OpenMesh::VertexHandle vertex(v);
-        const Vec3 at = surface.position(v);
-        if (surface.mesh.is_isolated(vertex) || outward.dot(at - origin) <= 0.0) continue;
+    std::vector<OpenMesh::VertexHandle> vertices;
+    for (const auto v : surface.mesh.vertices()) {
+        if (!surface.mesh.is_isolated(v)) vertices.push_back(v);
+    }
+    for (std::size_t i = 0; i < vertices.size(); i += vertices.size() / looked_at + 1) {
+        const OpenMesh::VertexHandle vertex = vertices[i];
+        const Vec3 at = surface.position(vertex.idx());
+        if (outward.dot(at - origin) <= 0.0) continue;
         bool inside = true;
         for (const auto face : surface.mesh.vf_range(vertex))
             inside = inside && upper[static_cast<std::size_t>(face.idx())];
@@ -136,7 +139,7 @@ std::optional<Index> vertex_of_side(const SurfaceMesh& surface, const std::vecto
         for (const Vec3& point : on_curves) distance = std::min(distance, (point - at).norm());
         if (!inside || distance <= furthest) continue;
         furthest = distance;
-        best = v;
+        best = vertex.idx();
     }
     return best;
 }

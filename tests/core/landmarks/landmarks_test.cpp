@@ -82,6 +82,25 @@ TEST_SUITE("core/landmarks") {
         }
     }
 
+    TEST_CASE("triangles that share no vertices make no difference") {
+        const SampleLast last = make_sample_last();
+        RawMesh soup = bare(last, Eigen::Affine3d(Eigen::Affine3d::Identity()));
+        const RawMesh whole = soup;
+        soup.positions.clear();
+        for (Triangle& t : soup.triangles) {
+            for (Index& v : t) {
+                soup.positions.push_back(whole.positions[static_cast<std::size_t>(v)]);
+                v = static_cast<Index>(soup.positions.size()) - 1;
+            }
+        }
+        soup.indexed = false;
+        WeldOptions options;
+        options.unit_mm = 1.0;
+        const Landmarks found = find_landmarks(weld(soup, options));
+        CHECK(found.warnings.empty());
+        CHECK(found.foot == Foot::right);
+    }
+
     TEST_CASE("what is no last says what is needed") {
         RawMesh box;
         box.label_sets = {{}};
