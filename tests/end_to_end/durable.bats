@@ -131,13 +131,13 @@ teardown() { stop_servers; }
 
 @test "a full disk refuses jobs, loses none, and the work goes on when there is room" {
     mkdir "$BATS_TEST_TMPDIR/small"
-    mount -t tmpfs -o size=6m tmpfs "$BATS_TEST_TMPDIR/small" 2> "$BATS_TEST_TMPDIR/mount" || skip "no right to mount a small disk"
+    mount -t tmpfs -o size=10m tmpfs "$BATS_TEST_TMPDIR/small" 2> "$BATS_TEST_TMPDIR/mount" || skip "no right to mount a small disk"
     DATA=$BATS_TEST_TMPDIR/small/data
     start_server --workers 1 --min-free-mb 4
     ask -F "model=@$sample/last.glb" "$url/v1/jobs"
     assert_equal "$status" 202
     wait_until 20 has_ended_job "$(header location)"
-    dd if=/dev/zero of="$BATS_TEST_TMPDIR/small/ballast" bs=1k count=3000 2> "$BATS_TEST_TMPDIR/dd"
+    dd if=/dev/zero of="$BATS_TEST_TMPDIR/small/ballast" bs=1k count=7000 2> "$BATS_TEST_TMPDIR/dd"
     ask -F "model=@$sample/last.glb" "$url/v1/jobs"
     assert_problem 507 storage_full
     rm "$BATS_TEST_TMPDIR/small/ballast"
