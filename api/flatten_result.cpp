@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "api/repair_json.h"
+#include "api/report_json.h"
 
 namespace lastflat::api {
 namespace {

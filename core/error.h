@@ -26,7 +26,7 @@ enum class ErrorCode {
     constraints_infeasible,  ///< the constraints cannot all hold
     border_crosses,          ///< the flat border crosses itself
     solver_failed,           ///< a linear system could not be solved
-    unsupported_request,     ///< part of the contract, but not in this version
+    unsupported_request,     ///< an option is out of its range
     cancelled,               ///< the caller asked to stop
 };
 

@@ -32,10 +32,9 @@ public:
             return p.corners == place.corners && p.weights == place.weights;
         });
         if (same != places_.end()) return static_cast<Index>(same - places_.begin());
-        const Vec3 position = position_of(surface_, place);
         const Index vertex = add(place);
         // The triangles whose border or inside the place is on: one, or two at an edge.
-        for (std::size_t t = mesh_.triangles.size(); t-- > 0;) split(t, vertex, position, place);
+        for (std::size_t t = mesh_.triangles.size(); t-- > 0;) split(t, vertex, place);
         return vertex;
     }
 
@@ -87,7 +86,7 @@ private:
         return holds ? rows : std::vector<Index>{};
     }
 
-    void split(std::size_t t, Index vertex, const Vec3&, const SurfacePlace& place) {
+    void split(std::size_t t, Index vertex, const SurfacePlace& place) {
         const Triangle whole = mesh_.triangles[t];
         const Vec3 share = shares(whole, place);
         constexpr double round_off = 1e-12;

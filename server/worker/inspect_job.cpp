@@ -1,7 +1,7 @@
 #include "server/worker/inspect_job.h"
 
 #include "api/problem_json.h"
-#include "api/repair_json.h"
+#include "api/report_json.h"
 #include "core/inspect.h"
 #include "server/problem_map.h"
 #include "server/translate.h"
