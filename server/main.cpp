@@ -6,6 +6,7 @@
 
 #include "server/commands.h"
 #include "server/duration.h"
+#include "server/flat_memory.h"
 #include "server/operator_commands.h"
 #include "server/serve.h"
 #include "server/version.h"
@@ -221,7 +222,10 @@ int run(int argc, char** argv) {
     if (map->parsed()) return server::map_command(a.model, a.request);
     if (inspect->parsed()) return server::inspect_command(a.model, request);
     if (sample->parsed()) return server::sample_last_command(a.sample, a.out);
-    if (serve->parsed()) server::serve(a.settings);
+    if (serve->parsed()) {
+        server::keep_memory_flat(argv);
+        server::serve(a.settings);
+    }
     return 0;
 }
 

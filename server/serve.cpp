@@ -1,6 +1,5 @@
 #include "server/serve.h"
 
-#include <malloc.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -53,15 +52,6 @@ void raise_descriptor_limit() {
     if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
     limit.rlim_cur = limit.rlim_max;
     setrlimit(RLIMIT_NOFILE, &limit);
-}
-
-/// Bodies and results come and go by the megabyte, on many threads. Few arenas, and large blocks
-/// that are mapped and unmapped, keep the process as small after a year as after a minute.
-void keep_memory_flat() {
-    constexpr int arenas = 2, mapped_from = 128 << 10;
-    mallopt(M_ARENA_MAX, arenas);
-    mallopt(M_MMAP_THRESHOLD, mapped_from);
-    mallopt(M_TRIM_THRESHOLD, mapped_from);
 }
 
 http::ServerLimits public_limits(const Settings& settings) {
@@ -208,7 +198,6 @@ void serve(const Settings& settings) {
     const sigset_t signals = block_signals();
     umask(S_IRWXG | S_IRWXO);  // models, requests and secrets are nobody else's
     raise_descriptor_limit();
-    keep_memory_flat();
     start_log();
     App app(settings);
     app.start();
