@@ -84,6 +84,11 @@ CurveRequest read_curve(const std::string& name, const Field& field, const Reque
             groups->fail("must name one group or two");
         ++forms;
     }
+    if (const auto border_at = reader.find("border_at")) {
+        curve.form = CurveForm::border_at;
+        curve.border_at = read_place(*border_at);
+        ++forms;
+    }
     if (const auto line = reader.find("line")) {
         curve.form = CurveForm::line;
         curve.line = line->text(limits.name_bytes);
@@ -91,7 +96,9 @@ CurveRequest read_curve(const std::string& name, const Field& field, const Reque
     }
     reader.finish();
     if (forms != 1)
-        field.fail("must have exactly one of: vertices, polyline, from and to, border_of, line");
+        field.fail(
+            "must have exactly one of: vertices, polyline, from and to, border_of, border_at, "
+            "line");
     return curve;
 }
 
@@ -167,6 +174,9 @@ void read_geometry(ObjectReader& reader, const RequestLimits& limits, FlattenReq
         }
     }
     if (const auto cuts = reader.find("cuts")) request.cuts = read_names(*cuts, limits);
+    if (const auto seams = reader.find("seams")) request.seams = read_names(*seams, limits);
+    if (const auto holes = reader.find("holes"))
+        request.holes = static_cast<Holes>(holes->choice({"auto", "keep", "open"}));
     if (const auto regions = reader.find("regions")) {
         for (const auto& [name, field] : regions->entries(limits.regions)) {
             const RegionRequest region = read_region(name, field);

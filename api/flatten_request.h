@@ -12,7 +12,7 @@
 namespace lastflat::api {
 
 enum class Unit { mm, cm, m, in };
-enum class CurveForm { vertices, polyline, geodesic, border_of, line };
+enum class CurveForm { vertices, polyline, geodesic, border_of, border_at, line };
 enum class KeepLength { edges, total };
 enum class Method {
     tutte,
@@ -46,7 +46,8 @@ struct CurveRequest {
     std::string from, to;
     std::vector<std::string> via;
     std::vector<std::string> border_of_groups;  ///< one or two
-    std::string line;                           ///< a line of the model
+    std::optional<PlaceRequest> border_at;
+    std::string line;  ///< a line of the model
 };
 
 struct RegionRequest {
@@ -70,6 +71,7 @@ struct ConstraintRequest {
 };
 
 enum class Conflict { fail, relax };
+enum class Holes { automatic, keep, open };
 
 /// Of the three ways to tell a zone one is given.
 struct ZoneRequest {
@@ -103,7 +105,8 @@ struct FlattenRequest {
     std::optional<double> weld_tolerance_mm, stitch_mm;
     std::vector<std::pair<std::string, PlaceRequest>> points;
     std::vector<CurveRequest> curves;
-    std::vector<std::string> cuts;
+    std::vector<std::string> cuts, seams;
+    Holes holes = Holes::automatic;
     std::vector<RegionRequest> regions;
     std::vector<ConstraintRequest> constraints;  ///< "locks", then "constraints"
     Conflict on_conflict = Conflict::fail;

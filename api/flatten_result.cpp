@@ -109,6 +109,18 @@ void append(std::string& text, std::int32_t value) {
     text += std::to_string(value);
 }
 template <class List>
+void append(std::string& text, const List& list);
+
+void append(std::string& text, const LoopResult& loop) {
+    Json segments = Json::array();
+    for (const auto& s : loop.segments)
+        segments.push_back({{"curve", s.curve}, {"first", s.first}, {"last", s.last}});
+    text += "{\"points_mm\":";
+    append(text, loop.points_mm);
+    text += ",\"segments\":" + text_of(segments) + "}";
+}
+
+template <class List>
 void append(std::string& text, const List& list) {
     text += '[';
     for (const auto& item : list) {
@@ -122,10 +134,6 @@ void append(std::string& text, const List& list) {
 /// What grows with the mesh, as the members of an object. Written by hand: as JSON values it would
 /// take several times as long, which is a tenth of the time of a small job.
 std::string geometry_text(const RegionResult& r) {
-    Json segments = Json::array();
-    for (const auto& s : r.segments) {
-        segments.push_back({{"curve", s.curve}, {"first", s.first}, {"last", s.last}});
-    }
     std::string text = "\"uv_mm\":";
     append(text, r.uv_mm);
     text += ",\"triangles\":";
@@ -144,9 +152,11 @@ std::string geometry_text(const RegionResult& r) {
     }
     if (text.back() == ',') text.pop_back();
     text += ']';
-    text += ",\"outline\":{\"points_mm\":";
-    append(text, r.outline_mm);
-    return text + ",\"segments\":" + text_of(segments) + "}";
+    text += ",\"outline\":";
+    append(text, r.outline);
+    text += ",\"holes\":";
+    append(text, r.holes);
+    return text;
 }
 
 Json to_json(const RegionResult& r) {
@@ -183,6 +193,7 @@ Json rest_of(const FlattenResult& result, bool with_geometry) {
         pairs.push_back({{"curve", p.curve},
                          {"a", p.a},
                          {"b", p.b},
+                         {"length_mm", p.length_mm},
                          {"difference_mm", p.difference_mm},
                          {"verdict", p.verdict}});
     }

@@ -78,14 +78,19 @@ struct SourcePoint {
     std::array<double, 3> weights;
 };
 
+struct LoopResult {
+    std::vector<Point> points_mm;
+    std::vector<SegmentResult> segments;
+};
+
 struct RegionResult {
     std::string name, method;
     std::vector<Point> uv_mm;
     std::vector<std::array<std::int32_t, 3>> triangles;
     std::vector<std::int32_t> source_vertices;  ///< ids of the file; -1: a curve made it
     std::vector<SourcePoint> source_points;     ///< where those are
-    std::vector<Point> outline_mm;
-    std::vector<SegmentResult> segments;
+    LoopResult outline;
+    std::vector<LoopResult> holes;
     std::vector<CurveResult> curves;
     MetricsResult metrics;
     StretchResult stretch;
@@ -96,7 +101,7 @@ struct RegionResult {
 
 struct PairResult {
     std::string curve, a, b;
-    double difference_mm;
+    double length_mm, difference_mm;
     std::string verdict;
 };
 

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <chrono>
 
-#include "core/constrain/check_constraints.h"
 #include "core/constrain/resolve_conflicts.h"
 #include "core/constrain/scale_to_locks.h"
-#include "core/landmarks/bare_last.h"
 #include "core/measure/check_result.h"
 #include "core/parallel.h"
 #include "core/parameterize/start.h"
+#include "core/prepare.h"
 
 namespace lastflat {
 namespace {
@@ -28,22 +27,6 @@ public:
 private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-/// Curves without any edge in a region would be certified by nobody: say so.
-void warn_of_absent_curves(const Curves& curves, const std::vector<Region>& regions,
-                           std::vector<Warning>& warnings) {
-    for (const Curve& curve : curves) {
-        const bool present = std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
-            return std::any_of(region.runs.begin(), region.runs.end(),
-                               [&](const CurveRun& run) { return run.curve == curve.name; });
-        });
-        if (!present) {
-            warnings.push_back({"curve_not_in_regions",
-                                "curve '" + curve.name + "' runs through none of the regions",
-                                std::nullopt});
-        }
-    }
-}
 
 /// One region of the result, measured and found sound.
 FlatRegion certified(const Region& region, const Chart& chart, const FlattenOptions& options,
@@ -212,48 +195,6 @@ void finish(const std::vector<Region>& regions, std::vector<Group> groups, std::
     }
 }
 
-}  // namespace
-
-std::optional<Landmarks> fill_in_landmarks(const SurfaceMesh& surface, FlattenOptions& options) {
-    const bool says_something = !options.curves.empty() || !options.cut.cuts.empty() ||
-                                !options.cut.regions.empty() || !options.weld.groups.empty() ||
-                                !options.constraints.empty();
-    const auto is_open = [&] {
-        return std::any_of(surface.mesh.edges_begin(), surface.mesh.edges_end(),
-                           [&](auto edge) { return surface.mesh.is_boundary(edge); });
-    };
-    if (says_something || is_open()) return std::nullopt;
-    Landmarks found = find_landmarks(surface);
-    options.curves = found.curves;
-    options.cut = found.cut;
-    options.constraints = {lock("centre_front"), lock("heel")};
-    return found;
-}
-
-InsertedCurves put_curves(SurfaceMesh& surface, const FlattenOptions& options, bool found) {
-    try {
-        return insert_curves(surface, locate_curves(surface, options.curves, options.points));
-    } catch (const Error& error) {
-        if (found) fail_search(error.what());
-        throw;
-    }
-}
-
-/// A vertex that was welded to another is named by that one.
-void name_welded_vertices(const SurfaceMesh& surface, FlattenOptions& options) {
-    const auto rename = [&](Index& vertex) {
-        if (surface.is_on_surface(vertex))
-            vertex = surface.welded_to[static_cast<std::size_t>(vertex)];
-    };
-    for (Constraint& constraint : options.constraints) rename(constraint.vertex);
-    for (Zone& zone : options.weights.zones) {
-        rename(zone.vertex);
-        for (Index& vertex : zone.vertices) rename(vertex);
-    }
-}
-
-namespace {
-
 /// The surface, mended, and what is to be done with it.
 SurfaceMesh read_surface(std::string_view model, FlattenOptions& options, FlattenResult& result,
                          Stopwatch& watch, Progress& progress) {
@@ -266,23 +207,8 @@ SurfaceMesh read_surface(std::string_view model, FlattenOptions& options, Flatte
     result.repairs = std::move(surface.repairs);
     result.found = fill_in_landmarks(surface, options);
     if (result.found) append(result.warnings, result.found->warnings);
-    result.asked = options.constraints;
     name_welded_vertices(surface, options);
     return surface;
-}
-
-std::vector<Region> cut_surface(SurfaceMesh& surface, const FlattenOptions& options,
-                                FlattenResult& result) {
-    InsertedCurves inserted = put_curves(surface, options, result.found.has_value());
-    const Curves& curves = inserted.curves;
-    result.file_vertices = surface.welded_to.size();
-    result.added_vertices = std::move(inserted.added);
-    result.smallest_added_angle = inserted.smallest_angle;
-    auto regions = cut_into_regions(surface, curves, options.cut);
-    check_constraints(options.constraints, curves, regions);
-    check_zones(options.weights.zones, curves, regions);
-    warn_of_absent_curves(curves, regions, result.warnings);
-    return regions;
 }
 
 }  // namespace
@@ -296,7 +222,14 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& asked, Progr
     SurfaceMesh surface = read_surface(model, options, result, watch, progress);
 
     progress.reach(Stage::cut, 0.2);
-    const auto regions = cut_surface(surface, options, result);
+    const bool by_itself = result.found.has_value() && asked.curves.empty();
+    CutSurface cut = cut_surface(surface, options, by_itself, progress);
+    append(result.warnings, std::move(cut.warnings));
+    result.asked = options.constraints;
+    result.file_vertices = surface.welded_to.size();
+    result.added_vertices = std::move(cut.inserted.added);
+    result.smallest_added_angle = cut.inserted.smallest_angle;
+    const std::vector<Region>& regions = cut.regions;
     result.timing.cut_ms = watch.lap();
 
     progress.reach(Stage::parameterize, 0.3);

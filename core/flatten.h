@@ -72,19 +72,6 @@ struct FlattenResult {
     bool draw_fan = false;
 };
 
-/// A request that says nothing of curves, cuts, regions or groups, of a closed last: what it would
-/// have said is found (see `find_landmarks`) and filled in, with the centre line locked.
-[[nodiscard]] std::optional<Landmarks> fill_in_landmarks(const SurfaceMesh& surface,
-                                                         FlattenOptions& options);
-
-/// The curves of the options as edges of the surface; `found`: nobody has asked for them by name.
-/// Throws: Error, as `locate_curves` and `insert_curves`; for found ones Error{region_invalid}.
-[[nodiscard]] InsertedCurves put_curves(SurfaceMesh& surface, const FlattenOptions& options,
-                                        bool found);
-
-/// Ids of vertices that were welded away become the ids of those that stand for them.
-void name_welded_vertices(const SurfaceMesh& surface, FlattenOptions& options);
-
 /// Flattens a last.
 ///
 /// In:     the bytes of a model (see `load_model`), the shoe-maker's constraints.

@@ -5,7 +5,7 @@
 #include <map>
 #include <numeric>
 
-#include "core/constrain/check_constraints.h"
+#include "core/prepare.h"
 
 namespace lastflat {
 namespace {
@@ -41,9 +41,9 @@ std::size_t count_components(const TriMesh& mesh) {
     return components;
 }
 
-std::vector<double> border_loops(const TriMesh& mesh) {
+std::vector<BorderLoop> border_loops(const TriMesh& mesh) {
     std::vector<bool> seen(mesh.n_halfedges(), false);
-    std::vector<double> lengths;
+    std::vector<BorderLoop> loops;
     for (const auto start : mesh.halfedges()) {
         if (!mesh.is_boundary(start) || seen[static_cast<std::size_t>(start.idx())]) continue;
         double length = 0.0;
@@ -53,16 +53,19 @@ std::vector<double> border_loops(const TriMesh& mesh) {
             length += mesh.calc_edge_length(side);
             side = mesh.next_halfedge_handle(side);
         } while (side != start);
-        lengths.push_back(length);
+        const auto& p = mesh.point(mesh.from_vertex_handle(start));
+        loops.push_back({length, {p[0], p[1], p[2]}});
     }
-    std::sort(lengths.rbegin(), lengths.rend());
-    return lengths;
+    std::stable_sort(loops.begin(), loops.end(), [](const BorderLoop& a, const BorderLoop& b) {
+        return a.length_mm > b.length_mm;
+    });
+    return loops;
 }
 
 void measure_surface(const TriMesh& mesh, Inspection& found) {
     found.triangles = mesh.n_faces();
     found.components = count_components(mesh);
-    found.border_loops_mm = border_loops(mesh);
+    found.border_loops = border_loops(mesh);
     Eigen::AlignedBox3d box;
     for (const auto vertex : mesh.vertices()) {
         if (mesh.is_isolated(vertex)) continue;
@@ -75,9 +78,16 @@ void measure_surface(const TriMesh& mesh, Inspection& found) {
 }
 
 InspectedRegion inspected(const Region& region) {
-    const auto lengths = border_lengths(region);
-    return {region.name, region.positions.size(), region.triangles.size(), surface_area(region),
-            std::accumulate(lengths.begin(), lengths.end(), 0.0)};
+    const auto length = [&](const std::vector<Index>& loop) {
+        const auto lengths = loop_lengths(region, loop);
+        return std::accumulate(lengths.begin(), lengths.end(), 0.0);
+    };
+    InspectedRegion found{region.name, region.positions.size(), region.triangles.size(),
+                          surface_area(region), length(region.border)};
+    for (const auto& hole : region.holes)
+        found.holes.push_back(
+            {length(hole), region.position(hole.front()), hole_curvature(region, hole)});
+    return found;
 }
 
 }  // namespace
@@ -100,11 +110,10 @@ Inspection inspect(std::string_view model, const FlattenOptions& asked) {
         if (found.landmarks)
             found.warnings.insert(found.warnings.end(), found.landmarks->warnings.begin(),
                                   found.landmarks->warnings.end());
-        const Curves curves = put_curves(surface, options, found.landmarks.has_value()).curves;
-        const auto regions = cut_into_regions(surface, curves, options.cut);
-        check_constraints(options.constraints, curves, regions);
-        check_zones(options.weights.zones, curves, regions);
-        for (const Region& region : regions) found.regions.push_back(inspected(region));
+        const bool by_itself = found.landmarks.has_value() && asked.curves.empty();
+        const CutSurface cut = cut_surface(surface, options, by_itself, Progress());
+        found.warnings.insert(found.warnings.end(), cut.warnings.begin(), cut.warnings.end());
+        for (const Region& region : cut.regions) found.regions.push_back(inspected(region));
     } catch (const Error& error) {
         found.fault = error;
     }

@@ -10,10 +10,22 @@
 
 namespace lastflat {
 
+struct BorderLoop {
+    double length_mm;
+    Vec3 position;  ///< of one of its vertices
+};
+
+struct InspectedHole {
+    double length_mm;
+    Vec3 position;     ///< of one of its vertices
+    double curvature;  ///< that it stands for, radians (see `hole_curvature`)
+};
+
 struct InspectedRegion {
     std::string name;
     std::size_t vertices = 0, triangles = 0;
-    double area_mm2 = 0.0, border_mm = 0.0;
+    double area_mm2 = 0.0, border_mm = 0.0;  ///< of the outer loop
+    std::vector<InspectedHole> holes{};      ///< that are kept
 };
 
 struct Inspection {
@@ -23,8 +35,8 @@ struct Inspection {
     // Of the surface: the faces that take part, welded.
     std::size_t vertices = 0, triangles = 0, components = 0;
     double area_mm2 = 0.0;
-    Vec3 size_mm = Vec3::Zero();          ///< of the box around it
-    std::vector<double> border_loops_mm;  ///< their lengths, longest first; none: it is closed
+    Vec3 size_mm = Vec3::Zero();           ///< of the box around it
+    std::vector<BorderLoop> border_loops;  ///< longest first; none: it is closed
     std::vector<InspectedRegion> regions;
     std::optional<Error> fault;  ///< why it cannot be cut into regions as asked
     std::vector<Warning> warnings;

@@ -19,15 +19,35 @@ double millimetres(api::Unit unit) {
     return 1.0;
 }
 
+Vec3 position_of(const api::Position& p) {
+    return {p[0], p[1], p[2]};
+}
+
+PointSource point_of(const std::string& name, const api::PlaceRequest& place) {
+    PointSource point{name, place.vertex, std::nullopt};
+    if (place.position) point.position = position_of(*place.position);
+    return point;
+}
+
+HoleRule rule_of(api::Holes holes) {
+    switch (holes) {
+        case api::Holes::automatic: return HoleRule::automatic;
+        case api::Holes::keep: return HoleRule::keep;
+        case api::Holes::open: return HoleRule::open;
+    }
+    return HoleRule::automatic;
+}
+
 CurveSource curve_of(const api::CurveRequest& curve) {
     CurveSource source{curve.name, curve.vertices};
-    for (const api::Position& p : curve.polyline) source.polyline.emplace_back(p[0], p[1], p[2]);
+    for (const api::Position& p : curve.polyline) source.polyline.push_back(position_of(p));
     if (curve.form == api::CurveForm::geodesic) {
         source.through = {curve.from};
         source.through.insert(source.through.end(), curve.via.begin(), curve.via.end());
         source.through.push_back(curve.to);
     }
     source.border_of = curve.border_of_groups;
+    if (curve.border_at) source.border_at = point_of("", *curve.border_at);
     source.line = curve.line;
     return source;
 }
@@ -234,6 +254,12 @@ void trace_back(const FlattenResult& result, api::RegionResult& region) {
     centre = region.source_vertices[static_cast<std::size_t>(centre)];
 }
 
+api::LoopResult to_wire(const OutlineLoop& loop) {
+    api::LoopResult wire{to_wire(loop.points), {}};
+    for (const auto& s : loop.segments) wire.segments.push_back({s.curve, s.first, s.last});
+    return wire;
+}
+
 api::RegionResult to_wire(const FlatRegion& flat, MethodName method) {
     api::RegionResult region;
     region.name = flat.region.name;
@@ -241,9 +267,8 @@ api::RegionResult to_wire(const FlatRegion& flat, MethodName method) {
     region.uv_mm = to_wire(flat.chart.uv);
     region.triangles.assign(flat.region.triangles.begin(), flat.region.triangles.end());
     region.source_vertices = flat.region.source_vertices;
-    region.outline_mm = to_wire(flat.outline.points);
-    for (const auto& s : flat.outline.segments)
-        region.segments.push_back({s.curve, s.first, s.last});
+    region.outline = to_wire(flat.outline);
+    for (const OutlineLoop& hole : flat.outline.holes) region.holes.push_back(to_wire(hole));
     for (const auto& c : flat.curves) {
         region.curves.push_back({c.name, c.locked, c.length_3d_mm, c.length_2d_mm, c.error_mm,
                                  c.worst_edge_error_mm, word(c.verdict)});
@@ -266,20 +291,18 @@ FlattenOptions to_options(const api::FlattenRequest& request) {
     options.weld.groups = request.surface_groups;
     options.weld.tolerance_mm = request.weld_tolerance_mm;
     options.weld.stitch_mm = request.stitch_mm;
-    for (const auto& [name, place] : request.points) {
-        PointSource point{name, place.vertex, std::nullopt};
-        if (place.position)
-            point.position = Vec3((*place.position)[0], (*place.position)[1], (*place.position)[2]);
-        options.points.push_back(point);
-    }
+    for (const auto& [name, place] : request.points)
+        options.points.push_back(point_of(name, place));
     for (const auto& curve : request.curves) options.curves.push_back(curve_of(curve));
     options.cut.cuts = request.cuts;
+    options.cut.seams = request.seams;
+    options.cut.holes = rule_of(request.holes);
     for (const auto& region : request.regions) {
         RegionChoice choice{region.name, {}, {}};
         if (region.contains) {
             choice.vertex = region.contains->vertex;
-            if (const auto& p = region.contains->position)
-                choice.position = Vec3((*p)[0], (*p)[1], (*p)[2]);
+            if (region.contains->position)
+                choice.position = position_of(*region.contains->position);
         }
         options.cut.regions.push_back(choice);
     }
@@ -337,7 +360,7 @@ api::FlattenResult to_wire(const FlattenResult& result) {
         wire.added = {
             {result.added_vertices.size(), result.smallest_added_angle * 180.0 / std::numbers::pi}};
     for (const auto& p : result.pairs) {
-        wire.pairs.push_back({p.curve, p.a, p.b, p.difference_mm, word(p.verdict)});
+        wire.pairs.push_back({p.curve, p.a, p.b, p.length_mm, p.difference_mm, word(p.verdict)});
     }
     for (const auto& c : result.constraints)
         wire.constraints.push_back(to_wire(c, result.asked[c.constraint]));

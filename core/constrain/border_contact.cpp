@@ -138,17 +138,19 @@ BorderContact::BorderContact(const Domain& domain)
     double total = 0.0;
     std::size_t edges = 0;
     for (std::size_t r = 0; r < domain.regions.size(); ++r) {
-        const auto lengths = border_lengths(*domain.regions[r]);
-        Loop loop{domain.regions[r]->border, {0.0}, {}};
-        for (Index& v : loop.vertices) v += domain.first[r];
-        for (std::size_t i = 0; i < lengths.size(); ++i) {
-            const double before = lengths[(i + lengths.size() - 1) % lengths.size()];
-            loop.lengths.push_back(0.5 * (before + lengths[i]));
-            loop.along.push_back(loop.along.back() + lengths[i]);
-            total += lengths[i];
-            ++edges;
+        for (const auto& border : border_loops(*domain.regions[r])) {
+            const auto lengths = loop_lengths(*domain.regions[r], border);
+            Loop loop{border, {0.0}, {}};
+            for (Index& v : loop.vertices) v += domain.first[r];
+            for (std::size_t i = 0; i < lengths.size(); ++i) {
+                const double before = lengths[(i + lengths.size() - 1) % lengths.size()];
+                loop.lengths.push_back(0.5 * (before + lengths[i]));
+                loop.along.push_back(loop.along.back() + lengths[i]);
+                total += lengths[i];
+                ++edges;
+            }
+            loops_.push_back(std::move(loop));
         }
-        loops_.push_back(std::move(loop));
     }
     clearance_ = clearance_share * total / static_cast<double>(edges);
     for (const Loop& loop : loops_) {

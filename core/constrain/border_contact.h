@@ -5,17 +5,20 @@
 
 namespace lastflat {
 
-/// A border vertex near a border edge of the same region: vertices of the domain.
+/// A border vertex near an edge of the same border loop: vertices of the domain.
 struct ContactPair {
     Index point, a, b;
     double clearance;  ///< mm, see `BorderContact`
 };
 
-/// Keeps the border of every region from crossing itself: border vertices that come nearer to a
-/// border edge than the pair's clearance are pushed away by a pressure that grows without bound,
-/// and no step goes through an edge. What stays apart feels nothing: the clearance is a hundredth
-/// of the mean border edge, but never more than a quarter of the way between both along the border,
-/// nor than half their distance on the last unless they are the two sides of a slit.
+/// Keeps every border loop from crossing itself. That is enough: how often a map without flips
+/// covers a point is the sum of the loops' winding numbers around it, which for simple loops is 0
+/// or 1; so no point is covered twice and no loop meets another. Border vertices that come nearer
+/// to an edge of their loop than the pair's clearance are pushed away by a pressure that grows
+/// without bound, and no step goes through an edge. What stays apart feels nothing: the clearance
+/// is a hundredth of the mean border edge, but never more than a quarter of the way between both
+/// along the border, nor than half their distance on the last unless they are the two sides of a
+/// slit.
 ///
 /// Paper: [smith-2015], section 3.3 (barrier, step to the first collision); the barrier's form and
 ///        the lists of near pairs: [li-2020], sections 3 and 4.

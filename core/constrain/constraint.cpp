@@ -13,6 +13,7 @@ std::string_view name(ConstraintKind kind) {
         case ConstraintKind::straight: return "straight";
         case ConstraintKind::total_area: return "total_area";
         case ConstraintKind::pin: return "pin";
+        case ConstraintKind::seam: return "seam";
     }
     return "unknown";
 }
@@ -28,6 +29,7 @@ std::string Constraint::title() const {
         case ConstraintKind::total_area:
             return region.empty() ? "total area" : "total area of " + region;
         case ConstraintKind::pin: return "pin of vertex " + std::to_string(vertex) + where;
+        case ConstraintKind::seam: return "seam along " + curve;
     }
     return {};
 }
@@ -36,6 +38,13 @@ Constraint lock(std::string curve, Keep keep) {
     Constraint constraint;
     constraint.curve = std::move(curve);
     constraint.keep = keep;
+    return constraint;
+}
+
+Constraint seam(std::string curve) {
+    Constraint constraint;
+    constraint.kind = ConstraintKind::seam;
+    constraint.curve = std::move(curve);
     return constraint;
 }
 

@@ -16,6 +16,7 @@ enum class ConstraintKind {
     straight,    ///< a curve lies on a line: a vamp cut on the fold
     total_area,  ///< a region keeps its area, or stays between two shares of it
     pin,         ///< a point lies at a given place of the plane
+    seam,        ///< both sides of a cut become equally long, stretch by stretch
 };
 
 enum class Keep {
@@ -45,6 +46,9 @@ struct Constraint {
 
 /// A curve that keeps the length of every edge, or in total.
 [[nodiscard]] Constraint lock(std::string curve, Keep keep = Keep::edges);
+
+/// A cut whose sides are sewn together.
+[[nodiscard]] Constraint seam(std::string curve);
 
 /// Per border edge, whether a lock of kind `edges` holds it.
 [[nodiscard]] std::vector<bool> locked_border_edges(const Region& region,

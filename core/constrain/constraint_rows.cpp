@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/cut/seam_stretches.h"
 #include "core/error.h"
 #include "core/numerics/disjoint_sets.h"
 #include "core/numerics/polygon.h"
@@ -79,6 +80,7 @@ private:
     void add_rows() {
         const ConstraintKind kind = constraint().kind;
         if (kind == ConstraintKind::match) return add_match();
+        if (kind == ConstraintKind::seam) return add_seam();
         if (kind == ConstraintKind::pin) return add_pin();
         if (kind == ConstraintKind::total_area) {
             for (std::size_t r = 0; r < domain_.regions.size(); ++r) {
@@ -129,11 +131,25 @@ private:
 
     void add_match() {
         const auto both = in_domain(match_sides(domain_.regions, constraint()));
-        if (both.size() != 2) return;  // they are in another domain
+        if (both.size() == 2) match(both[0], both[1]);  // else they are in another domain
+    }
+
+    void match(const Side& a, const Side& b) {
         std::vector<Term> terms;
-        const double length = add_length(both[0], 1.0, terms);
-        add_length(both[1], -1.0, terms);
-        add(std::move(terms), 0.0, 0.0, length, both[0].vertices.front());
+        const double length = add_length(a, 1.0, terms);
+        add_length(b, -1.0, terms);
+        add(std::move(terms), 0.0, 0.0, length, a.vertices.front());
+    }
+
+    void add_seam() {
+        for (const SeamStretch& both : seam_stretches(domain_.regions, constraint().curve)) {
+            const auto side = [&](const SeamStretch::Side& s) {
+                Side result{s.vertices};
+                for (Index& v : result.vertices) v += domain_.first[s.region];
+                return result;
+            };
+            match(side(both.a), side(both.b));
+        }
     }
 
     /// Every three consecutive points on a line: their triangle over their distance in space.
@@ -154,9 +170,10 @@ private:
         const Region& region = *domain_.regions[r];
         const double area = areas_[r], size = std::sqrt(area);
         std::vector<Term> terms;
-        for (std::size_t i = 0; i < region.border.size(); ++i) {
-            terms.push_back({TermKind::cross, 0.5 / size, region.border[i] + domain_.first[r],
-                             region.border[(i + 1) % region.border.size()] + domain_.first[r]});
+        for (const auto& loop : border_loops(region)) {
+            for (std::size_t i = 0; i < loop.size(); ++i)
+                terms.push_back({TermKind::cross, 0.5 / size, loop[i] + domain_.first[r],
+                                 loop[(i + 1) % loop.size()] + domain_.first[r]});
         }
         add(std::move(terms), area / size * (1.0 + constraint().min_percent / 100.0),
             area / size * (1.0 + constraint().max_percent / 100.0), size,
@@ -186,16 +203,73 @@ private:
     std::vector<ConstraintRow> rows_;
 };
 
-/// The edges of a row that fixes the sum of their lengths; none for other rows.
-std::vector<Edge> fixed_edges(const ConstraintRow& row) {
-    std::vector<Edge> edges;
-    if (!row.is_equation()) return edges;
-    for (const Term& term : row.terms) {
-        if (term.kind != TermKind::length || term.factor != 1.0) return {};
-        edges.push_back(std::minmax(term.a, term.b));
+/// Equations between lengths of edges, each solved for its first edge.
+class LengthEquations {
+public:
+    /// Whether the row follows from those before it; if not, it is one of them from now on. Rows
+    /// of other things than lengths follow from nothing.
+    bool imply(const ConstraintRow& row) {
+        if (!row.is_equation()) return false;
+        Equation equation{{}, row.most, std::abs(row.most)};
+        for (const Term& term : row.terms) {
+            if (term.kind != TermKind::length) return false;
+            equation.factors[std::minmax(term.a, term.b)] += term.factor;
+        }
+        reduce(equation);
+        if (!equation.factors.empty()) {
+            const Edge first = equation.factors.begin()->first;
+            solved_.emplace(first, std::move(equation));
+            return false;
+        }
+        return std::abs(equation.sum) <= 1e-12 * equation.size;
     }
-    std::sort(edges.begin(), edges.end());
-    return edges;
+
+private:
+    struct Equation {
+        std::map<Edge, double> factors;
+        double sum;
+        double size;  ///< of what was added up to it
+    };
+
+    void reduce(Equation& equation) const {
+        for (auto at = equation.factors.begin(); at != equation.factors.end();) {
+            const auto known = solved_.find(at->first);
+            const double factor = at->second;
+            if (factor == 0.0 || known == solved_.end()) {
+                at = factor == 0.0 ? equation.factors.erase(at) : std::next(at);
+                continue;
+            }
+            const Equation& other = known->second;
+            const double times = factor / other.factors.begin()->second;
+            for (const auto& [edge, share] : other.factors) equation.factors[edge] -= times * share;
+            at->second = 0.0;
+            equation.sum -= times * other.sum;
+            equation.size += std::abs(times * other.sum);
+        }
+    }
+
+    std::map<Edge, Equation> solved_;
+};
+
+/// The regions that a constraint has on its two sides.
+std::vector<std::pair<std::size_t, std::size_t>> coupled_by(
+    const Constraint& constraint, const std::vector<const Region*>& regions) {
+    std::vector<std::pair<std::size_t, std::size_t>> couples;
+    const auto refuse = [&](const std::string& why) {
+        throw Error(ErrorCode::curve_invalid, constraint.title() + ": " + why)
+            .at_option(constraint.option);
+    };
+    if (constraint.kind == ConstraintKind::match) {
+        const Sides sides = match_sides(regions, constraint);
+        if (sides.size() != 2)
+            refuse("each side must be one stretch of a curve; name the regions that they are in");
+        couples.emplace_back(sides[0].first, sides[1].first);
+    } else if (constraint.kind == ConstraintKind::seam) {
+        for (const SeamStretch& both : seam_stretches(regions, constraint.curve))
+            couples.emplace_back(both.a.region, both.b.region);
+        if (couples.empty()) refuse("the regions lie on one side of it at most");
+    }
+    return couples;
 }
 
 }  // namespace
@@ -229,32 +303,15 @@ std::vector<ConstraintRow> constraint_rows(const Domain& domain,
 
 std::vector<std::size_t> distinct_rows(const std::vector<ConstraintRow>& rows,
                                        const std::vector<std::size_t>& chosen) {
-    const auto same = [](double a, double b) {
-        return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b));
-    };
-    std::map<Edge, double> single;
-    for (const std::size_t k : chosen) {
-        const auto edges = fixed_edges(rows[k]);
-        if (edges.size() == 1) single.emplace(edges.front(), rows[k].most);
+    // Single edges first: it is the sums over them that go.
+    std::vector<std::size_t> order = chosen, distinct;
+    std::stable_partition(order.begin(), order.end(),
+                          [&](std::size_t k) { return rows[k].terms.size() == 1; });
+    LengthEquations known;
+    for (const std::size_t k : order) {
+        if (!known.imply(rows[k])) distinct.push_back(k);
     }
-    std::map<std::vector<Edge>, double> seen;
-    std::vector<std::size_t> distinct;
-    for (const std::size_t k : chosen) {
-        auto edges = fixed_edges(rows[k]);
-        if (!edges.empty()) {
-            double sum = 0.0;
-            bool implied = edges.size() > 1;
-            for (const Edge& edge : edges) {
-                const auto found = single.find(edge);
-                implied = implied && found != single.end();
-                if (implied) sum += found->second;
-            }
-            if (implied && same(sum, rows[k].most)) continue;
-            const auto [first, is_new] = seen.emplace(std::move(edges), rows[k].most);
-            if (!is_new && same(first->second, rows[k].most)) continue;
-        }
-        distinct.push_back(k);
-    }
+    std::sort(distinct.begin(), distinct.end());
     return distinct;
 }
 
@@ -265,16 +322,8 @@ std::vector<std::vector<std::size_t>> coupled_regions(const std::vector<Region>&
                    [](const Region& region) { return &region; });
     DisjointSets sets(regions.size());
     for (const Constraint& constraint : constraints) {
-        if (constraint.kind != ConstraintKind::match) continue;
-        const Sides sides = match_sides(all, constraint);
-        if (sides.size() != 2) {
-            throw Error(ErrorCode::curve_invalid,
-                        constraint.title() +
-                            ": each side must be one stretch of a curve; name the regions that "
-                            "they are in")
-                .at_option(constraint.option);
-        }
-        sets.join(static_cast<Index>(sides[0].first), static_cast<Index>(sides[1].first));
+        for (const auto& [a, b] : coupled_by(constraint, all))
+            sets.join(static_cast<Index>(a), static_cast<Index>(b));
     }
     std::vector<std::vector<std::size_t>> groups(regions.size());
     for (std::size_t r = 0; r < regions.size(); ++r)

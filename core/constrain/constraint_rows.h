@@ -41,13 +41,13 @@ struct ConstraintRow {
     const Domain& domain, const std::vector<Constraint>& constraints);
 
 /// Of the chosen rows those that say something new, ascending: an edge that two of them lock is
-/// locked once, a sum whose edges are all locked at that length adds nothing.
+/// locked once; a sum or a difference of lengths that follows from others adds nothing.
 [[nodiscard]] std::vector<std::size_t> distinct_rows(const std::vector<ConstraintRow>& rows,
                                                      const std::vector<std::size_t>& chosen);
 
-/// Which regions have to be flattened together because constraints match their curves: groups of
-/// places in `regions`, ascending.
-/// Throws: Error{curve_invalid} if a match names no two sides.
+/// Which regions have to be flattened together because constraints match their curves or sew them:
+/// groups of places in `regions`, ascending.
+/// Throws: Error{curve_invalid} if a match names no two sides, or a seam has them nowhere.
 [[nodiscard]] std::vector<std::vector<std::size_t>> coupled_regions(
     const std::vector<Region>& regions, const std::vector<Constraint>& constraints);
 

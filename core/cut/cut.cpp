@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/cut/check_disk.h"
 #include "core/cut/curve_runs.h"
+#include "core/cut/find_border.h"
 #include "core/numerics/disjoint_sets.h"
 
 namespace lastflat {
@@ -18,16 +18,17 @@ constexpr Index max_default_regions = 64;
 /// A place that is meant to be in a region is near it.
 constexpr double max_choice_distance_mm = 50.0;
 
-/// Per edge of the mesh, whether the surface is opened there.
-std::vector<bool> opened_edges(const SurfaceMesh& surface, const Curves& curves,
-                               const std::vector<std::string>& cuts) {
-    std::vector<bool> open(surface.mesh.n_edges(), false);
-    for (std::size_t i = 0; i < cuts.size(); ++i) {
+/// Marks the edges of the named curves, which stand in this list of the request.
+void open_edges(const SurfaceMesh& surface, const Curves& curves,
+                const std::vector<std::string>& names, const std::string& list,
+                std::vector<bool>& open) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
         const auto curve = std::find_if(curves.begin(), curves.end(),
-                                        [&](const Curve& c) { return c.name == cuts[i]; });
+                                        [&](const Curve& c) { return c.name == names[i]; });
         if (curve == curves.end()) {
-            throw Error(ErrorCode::curve_invalid, "cut '" + cuts[i] + "' names no curve")
-                .at_option({"cuts", std::to_string(i)});
+            throw Error(ErrorCode::curve_invalid,
+                        (list == "cuts" ? "cut '" : "seam '") + names[i] + "' names no curve")
+                .at_option({list, std::to_string(i)});
         }
         for (std::size_t k = 1; k < curve->vertices.size(); ++k) {
             const auto halfedge =
@@ -36,6 +37,14 @@ std::vector<bool> opened_edges(const SurfaceMesh& surface, const Curves& curves,
             open[static_cast<std::size_t>(surface.mesh.edge_handle(halfedge).idx())] = true;
         }
     }
+}
+
+/// Per edge of the mesh, whether the surface is opened there.
+std::vector<bool> opened_edges(const SurfaceMesh& surface, const Curves& curves,
+                               const CutOptions& options) {
+    std::vector<bool> open(surface.mesh.n_edges(), false);
+    open_edges(surface, curves, options.cuts, "cuts", open);
+    open_edges(surface, curves, options.seams, "seams", open);
     return open;
 }
 
@@ -183,7 +192,7 @@ Region extract(const SurfaceMesh& surface, const Pieces& pieces, Index piece) {
 
 std::vector<Region> cut_into_regions(const SurfaceMesh& surface, const Curves& curves,
                                      const CutOptions& options) {
-    const Pieces pieces = split(surface.mesh, opened_edges(surface, curves, options.cuts));
+    const Pieces pieces = split(surface.mesh, opened_edges(surface, curves, options));
     std::vector<RegionChoice> choices = options.regions;
     std::vector<Index> chosen;
     for (const RegionChoice& choice : choices) {
@@ -212,7 +221,7 @@ std::vector<Region> cut_into_regions(const SurfaceMesh& surface, const Curves& c
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         Region region = extract(surface, pieces, chosen[i]);
         region.name = choices[i].name;
-        region.border = checked_border(region);
+        find_border(region);
         region.runs = curve_runs(region, curves);
         regions.push_back(std::move(region));
     }

@@ -312,12 +312,50 @@ private:
     std::set<Index> touched_;
 };
 
+/// A place on vertices of which those from `first` on are places themselves, all in one old face.
+SurfacePlace on_old_vertices(const SurfacePlace& place, Index first,
+                             const std::vector<SurfacePlace>& added) {
+    std::map<Index, double> weights;
+    for (const Index corner : place.support()) {
+        const double share = place.weight_of(corner);
+        const SurfacePlace part = corner < first ? SurfacePlace::at_vertex(corner)
+                                                 : added[static_cast<std::size_t>(corner - first)];
+        for (const Index old : part.support()) weights[old] += share * part.weight_of(old);
+    }
+    SurfacePlace sum;
+    sum.corners.fill(weights.begin()->first);
+    std::size_t i = 0;
+    for (const auto& [corner, weight] : weights) {
+        sum.corners.at(i) = corner;
+        sum.weights[static_cast<Eigen::Index>(i++)] = weight;
+    }
+    return sum;
+}
+
 }  // namespace
 
 InsertedCurves insert_curves(SurfaceMesh& surface, const std::vector<SurfaceLine>& lines) {
     Insertion insertion(surface);
     for (const SurfaceLine& line : lines) insertion.add(line);
     return insertion.finish();
+}
+
+InsertedCurves insert_more_curves(SurfaceMesh& surface, InsertedCurves before,
+                                  const std::vector<SurfaceLine>& lines) {
+    const auto first = static_cast<Index>(surface.mesh.n_vertices() - before.added.size());
+    std::vector<SurfaceLine> all;
+    for (const Curve& curve : before.curves) {
+        all.push_back({curve.name, {}});
+        for (const Index v : curve.vertices)
+            all.back().places.push_back(SurfacePlace::at_vertex(v));
+    }
+    all.insert(all.end(), lines.begin(), lines.end());
+    InsertedCurves inserted = insert_curves(surface, all);
+    for (const SurfacePlace& place : inserted.added)
+        before.added.push_back(on_old_vertices(place, first, before.added));
+    inserted.added = std::move(before.added);
+    inserted.smallest_angle = std::min(inserted.smallest_angle, before.smallest_angle);
+    return inserted;
 }
 
 }  // namespace lastflat

@@ -30,4 +30,13 @@ struct InsertedCurves {
 [[nodiscard]] InsertedCurves insert_curves(SurfaceMesh& surface,
                                            const std::vector<SurfaceLine>& lines);
 
+/// Puts more lines into a surface that has curves already; those go through the new vertices where
+/// they meet the lines.
+///
+/// In:     what was put in before; lines on the surface as it is now.
+/// Out:    all curves, the new ones last; the places of all added vertices in terms of the vertices
+///         before any curve.
+[[nodiscard]] InsertedCurves insert_more_curves(SurfaceMesh& surface, InsertedCurves before,
+                                                const std::vector<SurfaceLine>& lines);
+
 }  // namespace lastflat

@@ -20,9 +20,9 @@ OneRings::OneRings(const Region& region) : on_border_(border_mask(region)) {
     std::sort(links.begin(), links.end(), before);
 
     std::vector<Index> first(region.positions.size(), -1);
-    for (std::size_t i = 0; i < region.border.size(); ++i) {
-        first[static_cast<std::size_t>(region.border[i])] =
-            region.border[(i + 1) % region.border.size()];
+    for (const auto& loop : border_loops(region)) {
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            first[static_cast<std::size_t>(loop[i])] = loop[(i + 1) % loop.size()];
     }
     begin_.push_back(0);
     auto link = links.begin();

@@ -4,18 +4,29 @@
 
 namespace lastflat {
 
+std::vector<std::vector<Index>> border_loops(const Region& region) {
+    std::vector<std::vector<Index>> loops{region.border};
+    loops.insert(loops.end(), region.holes.begin(), region.holes.end());
+    return loops;
+}
+
 std::vector<bool> border_mask(const Region& region) {
     std::vector<bool> mask(region.positions.size(), false);
-    for (const Index vertex : region.border) mask[static_cast<std::size_t>(vertex)] = true;
+    for (const auto& loop : border_loops(region)) {
+        for (const Index vertex : loop) mask[static_cast<std::size_t>(vertex)] = true;
+    }
     return mask;
 }
 
-std::vector<double> border_lengths(const Region& region) {
-    std::vector<double> lengths(region.border.size());
-    for (std::size_t i = 0; i < lengths.size(); ++i) {
-        lengths[i] = region.distance(region.border[i], region.border[(i + 1) % lengths.size()]);
-    }
+std::vector<double> loop_lengths(const Region& region, const std::vector<Index>& loop) {
+    std::vector<double> lengths(loop.size());
+    for (std::size_t i = 0; i < lengths.size(); ++i)
+        lengths[i] = region.distance(loop[i], loop[(i + 1) % lengths.size()]);
     return lengths;
+}
+
+std::vector<double> border_lengths(const Region& region) {
+    return loop_lengths(region, region.border);
 }
 
 Vec3 area_vector(const Region& region) {

@@ -16,11 +16,13 @@ struct CurveRun {
     [[nodiscard]] bool closed() const { return vertices.front() == vertices.back(); }
 };
 
-/// A triangulated disk with ids of its own, in ascending order of the file's ids.
+/// A triangulated disk, with holes or without, with ids of its own, in ascending order of the
+/// file's ids. Every border loop has the surface on its left, seen from outside.
 struct Region : Triangulation {
     std::string name;
-    std::vector<Index> border;           ///< the border loop, counter-clockwise seen from outside
-    std::vector<Index> source_vertices;  ///< per vertex, its id in the file
+    std::vector<Index> border;                ///< the outer loop: counter-clockwise
+    std::vector<std::vector<Index>> holes{};  ///< all other loops: clockwise
+    std::vector<Index> source_vertices;       ///< per vertex, its id in the file
     std::vector<CurveRun> runs;
 
     [[nodiscard]] double distance(Index a, Index b) const {
@@ -28,10 +30,17 @@ struct Region : Triangulation {
     }
 };
 
-/// Per vertex, whether it is on the border.
+/// The outer loop, then the holes.
+[[nodiscard]] std::vector<std::vector<Index>> border_loops(const Region& region);
+
+/// Per vertex, whether it is on one of the border loops.
 [[nodiscard]] std::vector<bool> border_mask(const Region& region);
 
-/// The 3D length of every border edge; edge i runs from border[i] to its successor. mm.
+/// The 3D length of every edge of a loop; edge i runs from loop[i] to its successor. mm.
+[[nodiscard]] std::vector<double> loop_lengths(const Region& region,
+                                               const std::vector<Index>& loop);
+
+/// Of the outer loop.
 [[nodiscard]] std::vector<double> border_lengths(const Region& region);
 
 /// The mean normal times the area, mm^2.

@@ -107,6 +107,18 @@ std::string polyline(const Points2& points, const Page& page, bool closed) {
     return closed ? d + "z" : d;
 }
 
+/// Around the piece, and around every hole.
+std::string cut_line(const Outline& outline, const Placement& placement, const Page& page) {
+    const auto closed = [&](const OutlineLoop& loop) {
+        Points2 points;
+        for (const Vec2& p : loop.points) points.push_back(placement.apply(p));
+        return polyline(points, page, true);
+    };
+    std::string d = closed(outline);
+    for (const OutlineLoop& hole : outline.holes) d += closed(hole);
+    return d;
+}
+
 std::string label_text(const CurveReport& report) {
     const std::string text = escaped(report.name) + " " + fixed(report.length_2d_mm, 2) + " mm";
     if (report.locked) return text + " locked";
@@ -156,17 +168,15 @@ std::string piece(const FlatRegion& flat, const Placement& placement, const Page
                   bool draw_fan) {
     Points2 places;
     for (const Vec2& p : flat.chart.uv) places.push_back(placement.apply(p));
-    Points2 outline;
     Vec2 centre = Vec2::Zero();
-    for (const Vec2& p : flat.outline.points) {
-        outline.push_back(placement.apply(p));
-        centre += page(outline.back()) / static_cast<double>(flat.outline.points.size());
-    }
+    for (const Vec2& p : flat.outline.points)
+        centre += page(placement.apply(p)) / static_cast<double>(flat.outline.points.size());
     const std::string name = escaped(flat.region.name);
     std::string svg = "<g id=\"" + name + "\" class=\"piece\">\n<g class=\"stretch\">\n" +
                       stretch_paths(flat, places, page) + "</g>\n" +
                       (draw_fan && flat.fan ? fan_lines(*flat.fan, places, page) : "") +
-                      "<path class=\"cut\" d=\"" + polyline(outline, page, true) + "\"/>\n";
+                      "<path class=\"cut\" d=\"" + cut_line(flat.outline, placement, page) +
+                      "\"/>\n";
     for (std::size_t i = 0; i < flat.region.runs.size(); ++i) {
         Points2 points;
         for (const Index v : flat.region.runs[i].vertices)

@@ -83,7 +83,7 @@ Vec2 direction_of(const Vec3& axis, const std::vector<Patch>& pieces) {
 
 /// Heel and centre front leave two stretches of border: the featherline's is the longer one.
 std::optional<BaseLine> named_base_line(const Region& region) {
-    const auto segments = border_segments(region);
+    const auto segments = border_segments(region, region.border);
     const BorderSegment* heel = segment_of(segments, "heel");
     const auto front = front_segment(segments);
     if (heel == nullptr || !front) return std::nullopt;

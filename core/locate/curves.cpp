@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "core/locate/border_loop.h"
 #include "core/locate/curve_error.h"
 #include "core/locate/follow_surface.h"
 #include "core/locate/group_line.h"
@@ -227,6 +228,8 @@ std::vector<SurfaceLine> locate_curves(const SurfaceMesh& surface,
                 line.places = shortest_paths(surface, stops);
             } else if (!source.border_of.empty()) {
                 line.places = places_of(group_line(surface, source));
+            } else if (source.border_at) {
+                line.places = places_of(border_loop(surface, source));
             } else {
                 line.places = places_of(vertex_path(surface, source));
             }

@@ -16,14 +16,15 @@ struct PointSource {
     std::optional<Vec3> position;  ///< mm
 };
 
-/// What the request says of a curve: one of the five.
+/// What the request says of a curve: one of the six.
 struct CurveSource {
     std::string name;
-    std::vector<Index> vertices{};         ///< ids of the file; consecutive ones share an edge
-    Points3 polyline{};                    ///< in space near the surface, mm
-    std::vector<std::string> through{};    ///< named points, joined by shortest paths
-    std::vector<std::string> border_of{};  ///< one group: its border; two: where they meet
-    std::string line{};                    ///< a line of the model, by name
+    std::vector<Index> vertices{};           ///< ids of the file; consecutive ones share an edge
+    Points3 polyline{};                      ///< in space near the surface, mm
+    std::vector<std::string> through{};      ///< named points, joined by shortest paths
+    std::vector<std::string> border_of{};    ///< one group: its border; two: where they meet
+    std::string line{};                      ///< a line of the model, by name
+    std::optional<PointSource> border_at{};  ///< the border loop at this place
 };
 
 /// A line on the surface: one triangle holds each two consecutive places. Closed if the first place

@@ -1,7 +1,5 @@
 #include "core/measure/check_result.h"
 
-#include "core/numerics/polygon.h"
-
 namespace lastflat {
 namespace {
 
@@ -16,10 +14,9 @@ std::string first_places(const Region& region, const std::vector<Index>& triangl
 
 void check_crossings(const Region& region, const Points2& uv, MethodName method,
                      std::vector<Warning>& warnings) {
-    const auto crossings = self_crossings(flat_border(region, uv));
+    const auto crossings = border_crossings(region, uv);
     if (crossings.empty()) return;
-    const Vec3& a = region.position(region.border[static_cast<std::size_t>(crossings.front().a)]);
-    const Vec3& b = region.position(region.border[static_cast<std::size_t>(crossings.front().b)]);
+    const auto& [a, b] = crossings.front();
     const std::string what = "region '" + region.name + "': the flat border crosses itself " +
                              std::to_string(crossings.size()) + " times, first where " + place(a) +
                              " meets " + place(b);

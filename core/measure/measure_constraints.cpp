@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cut/seam_stretches.h"
 #include "core/measure/report.h"
 #include "core/numerics/polygon.h"
 #include "core/numerics/tolerances.h"
@@ -17,10 +18,8 @@ public:
 
     std::vector<ConstraintReport> measure(const Constraint& constraint) {
         std::vector<ConstraintReport> reports;
-        if (constraint.kind == ConstraintKind::match) {
-            reports.push_back(match(constraint));
-            return reports;
-        }
+        if (constraint.kind == ConstraintKind::match) return {match(constraint)};
+        if (constraint.kind == ConstraintKind::seam) return seam(constraint);
         for (std::size_t r = 0; r < regions_.size(); ++r) {
             if (!constraint.region.empty() && constraint.region != regions_[r].name) continue;
             if (constraint.kind == ConstraintKind::total_area) {
@@ -46,11 +45,11 @@ private:
         double in_space = 0.0, flat = 0.0;
     };
 
-    [[nodiscard]] Lengths lengths(std::size_t r, const CurveRun& run) const {
+    [[nodiscard]] Lengths lengths(std::size_t r, const std::vector<Index>& line) const {
         Lengths sum;
-        for (std::size_t i = 1; i < run.vertices.size(); ++i) {
-            sum.in_space += regions_[r].distance(run.vertices[i - 1], run.vertices[i]);
-            sum.flat += (flat(r, run.vertices[i]) - flat(r, run.vertices[i - 1])).norm();
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            sum.in_space += regions_[r].distance(line[i - 1], line[i]);
+            sum.flat += (flat(r, line[i]) - flat(r, line[i - 1])).norm();
         }
         return sum;
     }
@@ -67,7 +66,7 @@ private:
 
     [[nodiscard]] ConstraintReport curve(const Constraint& constraint, std::size_t r,
                                          const CurveRun& run) const {
-        const Lengths sum = lengths(r, run);
+        const Lengths sum = lengths(r, run.vertices);
         ConstraintReport report{};
         if (constraint.kind == ConstraintKind::straight) {
             report = straight(r, run);
@@ -147,11 +146,26 @@ private:
         };
         add(constraint.curve, constraint.region);
         if (sides.size() < 2) add(constraint.with_curve, constraint.with_region);
-        const Lengths a = lengths(sides[0].first, *sides[0].second);
-        const Lengths b = lengths(sides[1].first, *sides[1].second);
+        return equal({sides[0].first, sides[0].second->vertices},
+                     {sides[1].first, sides[1].second->vertices});
+    }
+
+    [[nodiscard]] std::vector<ConstraintReport> seam(const Constraint& constraint) const {
+        std::vector<const Region*> all;
+        for (const Region& region : regions_) all.push_back(&region);
+        std::vector<ConstraintReport> reports;
+        for (const SeamStretch& both : seam_stretches(all, constraint.curve))
+            reports.push_back(equal(both.a, both.b));
+        return reports;
+    }
+
+    [[nodiscard]] ConstraintReport equal(const SeamStretch::Side& one,
+                                         const SeamStretch::Side& other) const {
+        const Lengths a = lengths(one.region, one.vertices);
+        const Lengths b = lengths(other.region, other.vertices);
         ConstraintReport report = bounded(b.flat, b.flat, a.flat, a.in_space);
-        report.region = regions_[sides[0].first].name;
-        report.position = regions_[sides[0].first].position(sides[0].second->vertices.front());
+        report.region = regions_[one.region].name;
+        report.position = regions_[one.region].position(one.vertices.front());
         return report;
     }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cut/seam_stretches.h"
 #include "core/measure/report.h"
 #include "core/numerics/tolerances.h"
 
@@ -11,13 +12,13 @@ struct Lengths {
     double in_space = 0.0, flat = 0.0, worst_edge = 0.0, worst_edge_relative = 0.0;
 };
 
-Lengths lengths_of(const Region& region, const Points2& uv, const CurveRun& run) {
+Lengths lengths_of(const Region& region, const Points2& uv, const std::vector<Index>& line) {
     Lengths sum;
-    for (std::size_t i = 1; i < run.vertices.size(); ++i) {
-        const double in_space = region.distance(run.vertices[i - 1], run.vertices[i]);
-        const double flat = (uv[static_cast<std::size_t>(run.vertices[i])] -
-                             uv[static_cast<std::size_t>(run.vertices[i - 1])])
-                                .norm();
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        const double in_space = region.distance(line[i - 1], line[i]);
+        const double flat =
+            (uv[static_cast<std::size_t>(line[i])] - uv[static_cast<std::size_t>(line[i - 1])])
+                .norm();
         sum.in_space += in_space;
         sum.flat += flat;
         const double error = std::abs(flat - in_space);
@@ -54,23 +55,13 @@ const Constraint* lock_on(const std::string& curve, const std::string& region,
     return found == constraints.end() ? nullptr : &*found;
 }
 
-/// The run's vertices of the last, in the direction that is the smaller of the two.
-std::vector<Index> sources_of(const Region& region, const CurveRun& run) {
-    std::vector<Index> sources;
-    for (const Index v : run.vertices) {
-        sources.push_back(region.source_vertices[static_cast<std::size_t>(v)]);
-    }
-    std::vector<Index> reversed(sources.rbegin(), sources.rend());
-    return std::min(sources, reversed);
-}
-
 }  // namespace
 
 std::vector<CurveReport> measure_curves(const Region& region, const Points2& uv,
                                         const std::vector<Constraint>& constraints) {
     std::vector<CurveReport> reports;
     for (const CurveRun& run : region.runs) {
-        const Lengths lengths = lengths_of(region, uv, run);
+        const Lengths lengths = lengths_of(region, uv, run.vertices);
         const Constraint* lock = lock_on(run.curve, region.name, constraints);
         reports.push_back({run.curve, lock != nullptr, lengths.in_space, lengths.flat,
                            lengths.flat - lengths.in_space, lengths.worst_edge,
@@ -81,28 +72,28 @@ std::vector<CurveReport> measure_curves(const Region& region, const Points2& uv,
 
 std::vector<PairReport> measure_pairs(const std::vector<Region>& regions,
                                       const std::vector<Chart>& charts) {
-    struct Side {
-        std::size_t region;
-        const CurveRun* run;
-        std::vector<Index> sources;
-    };
-    std::vector<Side> sides;
-    for (std::size_t r = 0; r < regions.size(); ++r) {
-        for (const CurveRun& run : regions[r].runs)
-            sides.push_back({r, &run, sources_of(regions[r], run)});
+    std::vector<const Region*> all;
+    std::vector<std::string> curves;
+    for (const Region& region : regions) {
+        all.push_back(&region);
+        for (const CurveRun& run : region.runs) {
+            if (std::find(curves.begin(), curves.end(), run.curve) == curves.end())
+                curves.push_back(run.curve);
+        }
     }
     std::vector<PairReport> pairs;
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-        for (std::size_t j = i + 1; j < sides.size(); ++j) {
-            const Side &a = sides[i], &b = sides[j];
-            if (a.run->curve != b.run->curve || a.sources != b.sources) continue;
-            const double difference =
-                lengths_of(regions[a.region], charts[a.region].uv, *a.run).flat -
-                lengths_of(regions[b.region], charts[b.region].uv, *b.run).flat;
-            pairs.push_back(
-                {a.run->curve, regions[a.region].name, regions[b.region].name, difference,
-                 std::abs(difference) <= tolerance::pair_difference_mm ? Verdict::pass
-                                                                       : Verdict::fail});
+    for (const std::string& curve : curves) {
+        for (const SeamStretch& both : seam_stretches(all, curve)) {
+            const auto lengths = [&](const SeamStretch::Side& side) {
+                return lengths_of(regions[side.region], charts[side.region].uv, side.vertices);
+            };
+            const Lengths a = lengths(both.a), b = lengths(both.b);
+            const double difference = a.flat - b.flat;
+            pairs.push_back({curve, regions[both.a.region].name, regions[both.b.region].name,
+                             a.in_space, difference,
+                             std::abs(difference) <= tolerance::pair_difference_mm
+                                 ? Verdict::pass
+                                 : Verdict::fail});
         }
     }
     return pairs;

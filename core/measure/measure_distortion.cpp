@@ -5,7 +5,6 @@
 
 #include "core/measure/report.h"
 #include "core/measure/stretch.h"
-#include "core/numerics/polygon.h"
 
 namespace lastflat {
 namespace {
@@ -53,7 +52,7 @@ Metrics measure_distortion(const Region& region, const Points2& uv) {
     m.area_error = std::abs(m.area_2d_mm2 - m.area_3d_mm2) / m.area_3d_mm2;
     m.area_error_p95 = weighted_quantile(std::move(area_errors), 0.95);
     m.area_verdict = area_verdict(m.area_error);
-    m.border_crossings = static_cast<Index>(self_crossings(flat_border(region, uv)).size());
+    m.border_crossings = static_cast<Index>(border_crossings(region, uv).size());
     return m;
 }
 

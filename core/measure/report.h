@@ -40,6 +40,7 @@ struct CurveReport {
 struct PairReport {
     std::string curve;
     std::string a, b;      ///< regions
+    double length_mm;      ///< on the last
     double difference_mm;  ///< flat length in a minus flat length in b
     Verdict verdict;
 };

@@ -11,10 +11,15 @@ struct OutlineSegment {
     Index first, last;
 };
 
-/// Counter-clockwise, not closed by a repeated point, mm. Begins where a named curve begins.
-struct Outline {
+/// Not closed by a repeated point, mm. Begins where a named curve begins.
+struct OutlineLoop {
     Points2 points;
     std::vector<OutlineSegment> segments;  ///< in the order of their first points
+};
+
+/// The outer loop, counter-clockwise, and the holes, clockwise.
+struct Outline : OutlineLoop {
+    std::vector<OutlineLoop> holes;
 };
 
 [[nodiscard]] Outline trace_outline(const Region& region, const Chart& chart);

@@ -35,11 +35,21 @@ std::vector<Triangle> source_triangles(const Region& region, const std::vector<I
     return result;
 }
 
-Points2 flat_border(const Region& region, const Points2& uv) {
+Points2 flat_loop(const std::vector<Index>& loop, const Points2& uv) {
     Points2 outline;
-    outline.reserve(region.border.size());
-    for (const Index v : region.border) outline.push_back(uv[static_cast<std::size_t>(v)]);
+    outline.reserve(loop.size());
+    for (const Index v : loop) outline.push_back(uv[static_cast<std::size_t>(v)]);
     return outline;
+}
+
+std::vector<BorderCrossing> border_crossings(const Region& region, const Points2& uv) {
+    std::vector<BorderCrossing> crossings;
+    for (const auto& loop : border_loops(region)) {
+        for (const Crossing& found : self_crossings(flat_loop(loop, uv)))
+            crossings.push_back({region.position(loop[static_cast<std::size_t>(found.a)]),
+                                 region.position(loop[static_cast<std::size_t>(found.b)])});
+    }
+    return crossings;
 }
 
 double flat_area(const Region& region, const Points2& uv) {

@@ -17,8 +17,16 @@ struct Chart {
 [[nodiscard]] std::vector<Triangle> source_triangles(const Region& region,
                                                      const std::vector<Index>& triangles);
 
-/// The border loop in the plane, in its order.
-[[nodiscard]] Points2 flat_border(const Region& region, const Points2& uv);
+/// A loop in the plane, in its order.
+[[nodiscard]] Points2 flat_loop(const std::vector<Index>& loop, const Points2& uv);
+
+/// Where a border loop crosses itself in the plane: two places on the last.
+struct BorderCrossing {
+    Vec3 a, b;
+};
+
+/// All crossings of the outer loop and of every hole, each with itself (see `BorderContact`).
+[[nodiscard]] std::vector<BorderCrossing> border_crossings(const Region& region, const Points2& uv);
 
 /// Flat area, mm^2, triangles counted with their sign.
 [[nodiscard]] double flat_area(const Region& region, const Points2& uv);

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "core/border/convex_border.h"
-#include "core/numerics/polygon.h"
+#include "core/parameterize/fill_holes.h"
 #include "core/parameterize/fixed_border.h"
 #include "core/parameterize/floating_border.h"
 
@@ -22,7 +22,7 @@ Chart floating_chart(const Region& region, const std::vector<bool>& locked, Weig
 std::string fault_of(const Region& region, const Chart& chart) {
     const auto flipped = flipped_triangles(region, chart.uv);
     if (!flipped.empty()) return std::to_string(flipped.size()) + " triangles of it are flipped";
-    return self_crossings(flat_border(region, chart.uv)).empty() ? "" : "its border crosses itself";
+    return border_crossings(region, chart.uv).empty() ? "" : "its border crosses itself";
 }
 
 /// The region seen along its mean normal: of a flat one, itself.
@@ -35,20 +35,27 @@ Chart shadow(const Region& region) {
     return chart;
 }
 
+/// Without the points that only the disk has.
+Chart part_of(Chart disk, const Region& region) {
+    disk.uv.resize(region.positions.size());
+    return disk;
+}
+
 /// Why the geodesic fan cannot be the start, or nothing and the chart.
-std::string try_fan(const Region& region, const std::vector<bool>& locked, AngleRule angles,
-                    Chart& chart) {
+std::string try_fan(const Region& region, const Region& disk, const std::vector<bool>& locked,
+                    AngleRule angles, Chart& chart) {
     try {
-        chart = floating_chart(region, locked, mean_value_weights, angles);
+        chart = part_of(floating_chart(disk, locked, mean_value_weights, angles), region);
     } catch (const Error& error) {
         return error.what();
     }
     return fault_of(region, chart);
 }
 
-Start energy_start(const Region& region, const std::vector<bool>& locked, AngleRule angles) {
+Start energy_start(const Region& region, const Region& disk, const std::vector<bool>& locked,
+                   AngleRule angles) {
     Start start;
-    const std::string why = try_fan(region, locked, angles, start.chart);
+    const std::string why = try_fan(region, disk, locked, angles, start.chart);
     if (why.empty()) return start;
     Chart flat = shadow(region);
     if (!flat.uv.empty() && fault_of(region, flat).empty()) {
@@ -61,7 +68,8 @@ Start energy_start(const Region& region, const std::vector<bool>& locked, AngleR
                                   std::nullopt});
         return start;
     }
-    start.chart = flatten_fixed_border(region, mean_value_weights, circle_border(region));
+    start.chart =
+        part_of(flatten_fixed_border(disk, mean_value_weights, circle_border(disk)), region);
     const auto flipped = flipped_triangles(region, start.chart.uv);
     if (!flipped.empty()) {
         const Vec3& where =
@@ -143,7 +151,8 @@ Points2 convex_border(const Region& region, const std::vector<bool>& locked, Bor
 
 Start start_chart(const Region& region, const std::vector<bool>& locked_border,
                   const MethodOptions& method) {
-    if (is_energy(method.name)) return energy_start(region, locked_border, method.angles);
+    const Region disk = with_holes_filled(region);
+    if (is_energy(method.name)) return energy_start(region, disk, locked_border, method.angles);
     const WeightRule rule = weight_rule(method.name);
     Start start;
     if (rule == harmonic_weights || rule == wachspress_weights) {
@@ -152,10 +161,11 @@ Start start_chart(const Region& region, const std::vector<bool>& locked_border,
     const bool floats = method.border == BorderShape::floating ||
                         method.name == MethodName::virtual_border ||
                         method.name == MethodName::geodesic_fan;
-    start.chart = floats ? floating_chart(region, locked_border, rule, method.angles)
-                         : flatten_fixed_border(
-                               region, rule,
-                               convex_border(region, locked_border, method.border, method.angles));
+    start.chart = part_of(
+        floats ? floating_chart(disk, locked_border, rule, method.angles)
+               : flatten_fixed_border(
+                     disk, rule, convex_border(disk, locked_border, method.border, method.angles)),
+        region);
     return start;
 }
 

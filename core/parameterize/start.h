@@ -13,7 +13,9 @@ struct Start {
     std::vector<Warning> warnings;
 };
 
-/// In:     per border edge, whether its length is locked (see `border_polygon`).
+/// Of a region with holes it is a part of the chart of the disk that has them filled.
+///
+/// In:     per edge of the outer loop, whether its length is locked (see `border_polygon`).
 /// Out:    for the energies a chart without flipped triangles: the geodesic fan or, where that
 ///         folds, fails or crosses its own border, the region seen along its mean normal, or mean
 ///         values on a circle, with the warning `start_replaced`. For harmonic

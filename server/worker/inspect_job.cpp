@@ -1,5 +1,7 @@
 #include "server/worker/inspect_job.h"
 
+#include <numbers>
+
 #include "api/problem_json.h"
 #include "api/report_json.h"
 #include "core/inspect.h"
@@ -11,25 +13,35 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json position_json(const Vec3& p) {
+    return {p.x(), p.y(), p.z()};
+}
+
+Json region_json(const InspectedRegion& r) {
+    Json holes = Json::array();
+    for (const InspectedHole& hole : r.holes) {
+        holes.push_back({{"length_mm", hole.length_mm},
+                         {"position", position_json(hole.position)},
+                         {"curvature_deg", hole.curvature * 180.0 / std::numbers::pi}});
+    }
+    return {{"name", r.name},         {"vertices", r.vertices},   {"triangles", r.triangles},
+            {"area_mm2", r.area_mm2}, {"border_mm", r.border_mm}, {"holes", std::move(holes)}};
+}
+
 Json report_json(const Inspection& found) {
     Json groups = Json::array(), regions = Json::array(), warnings = Json::array();
     for (const auto& [name, triangles] : found.groups)
         groups.push_back({{"name", name}, {"triangles", triangles}});
-    for (const InspectedRegion& r : found.regions) {
-        regions.push_back({{"name", r.name},
-                           {"vertices", r.vertices},
-                           {"triangles", r.triangles},
-                           {"area_mm2", r.area_mm2},
-                           {"border_mm", r.border_mm}});
-    }
+    for (const InspectedRegion& r : found.regions) regions.push_back(region_json(r));
     for (const Warning& w : found.warnings) {
         warnings.push_back({{"code", w.code}, {"detail", w.detail}});
-        if (w.position) {
-            const Vec3& p = *w.position;
-            warnings.back()["position"] = {p.x(), p.y(), p.z()};
-        }
+        if (w.position) warnings.back()["position"] = position_json(*w.position);
     }
-    const Vec3& size = found.size_mm;
+    Json loops = Json::array(), places = Json::array();
+    for (const BorderLoop& loop : found.border_loops) {
+        loops.push_back(loop.length_mm);
+        places.push_back(position_json(loop.position));
+    }
     Json report{{"flattens", !found.fault},
                 {"file",
                  {{"vertices", found.file_vertices},
@@ -40,10 +52,11 @@ Json report_json(const Inspection& found) {
                  {{"vertices", found.vertices},
                   {"triangles", found.triangles},
                   {"components", found.components},
-                  {"closed", found.border_loops_mm.empty()},
-                  {"border_loops_mm", found.border_loops_mm},
+                  {"closed", found.border_loops.empty()},
+                  {"border_loops_mm", std::move(loops)},
+                  {"border_positions", std::move(places)},
                   {"area_mm2", found.area_mm2},
-                  {"size_mm", {size.x(), size.y(), size.z()}}}},
+                  {"size_mm", position_json(found.size_mm)}}},
                 {"regions", std::move(regions)},
                 {"warnings", std::move(warnings)},
                 {"repairs", api::repairs_json(to_wire(found.repairs))}};

@@ -44,8 +44,9 @@ TEST_SUITE("api/flatten_request") {
             "points": {"toe_point": {"vertex": 80}, "vamp_point": {"position": [180, 3, 60]}},
             "curves": {"centre_front": {"vertices": [80, 240]}, "heel": {"polyline": [[0,0,0],[1,0,9]]},
                        "topline": {"from": "a", "to": "b", "via": ["c"]},
-                       "featherline": {"border_of": {"groups": ["upper", "sole"]}}},
-            "cuts": ["centre_front", "heel"],
+                       "featherline": {"border_of": {"groups": ["upper", "sole"]}},
+                       "vent": {"border_at": {"position": [1, 2, 3]}}},
+            "cuts": ["centre_front", "heel"], "seams": ["dart"], "holes": "keep",
             "regions": {"exterior": {"contains": {"vertex": 5200}}, "interior": {}},
             "locks": [{"curve": "centre_front"}, {"curve": "topline", "keep": "total"}],
             "constraints": [{"kind": "range", "curve": "featherline", "min_percent": -1},
@@ -59,11 +60,14 @@ TEST_SUITE("api/flatten_request") {
         CHECK(request.surface_groups == std::vector<std::string>{"upper"});
         CHECK(request.weld_tolerance_mm == 0.01);
         CHECK(request.points.size() == 2);
-        REQUIRE(request.curves.size() == 4);  // in alphabetical order
+        REQUIRE(request.curves.size() == 5);  // in alphabetical order
         CHECK(request.curves[0].vertices == std::vector<std::int32_t>{80, 240});
         CHECK(request.curves[1].form == CurveForm::border_of);
         CHECK(request.curves[2].form == CurveForm::polyline);
         CHECK(request.curves[3].via == std::vector<std::string>{"c"});
+        CHECK(request.curves[4].border_at->position == Position{1, 2, 3});
+        CHECK(request.seams == std::vector<std::string>{"dart"});
+        CHECK(request.holes == Holes::keep);
         REQUIRE(request.regions.size() == 2);
         CHECK(request.regions[0].name == "lateral");
         CHECK(request.regions[0].contains->vertex == 5200);
@@ -122,7 +126,12 @@ TEST_SUITE("api/flatten_request") {
             {R"({"curves": {"heel": {"from": "a"}}})", "/curves/heel"},
             {R"({"curves": {"a/b~c": {"vertices": "x"}}})", "/curves/a~1b~0c/vertices"},
             {R"({"curves": {"": {"vertices": [1,2]}}})", "/curves/"},
+            {R"({"curves": {"heel": {"border_at": {}}}})", "/curves/heel/border_at"},
+            {R"({"curves": {"heel": {"vertices": [1,2], "border_at": {"vertex": 1}}}})",
+             "/curves/heel"},
             {R"({"cuts": "heel"})", "/cuts"},
+            {R"({"seams": [1]})", "/seams/0"},
+            {R"({"holes": "fill"})", "/holes"},
             {R"({"regions": {"a": {"contain": {}}}})", "/regions/a/contain"},
             {R"({"regions": {"lateral": {}, "exterior": {}}})", "/regions/lateral"},
             {R"({"locks": [{"keep": "edges"}]})", "/locks/0"},
@@ -168,7 +177,7 @@ TEST_SUITE("api/flatten_request") {
 
     TEST_CASE("an error lists what there is instead") {
         CHECK(detail_of(R"({"seem": 1})")
-                  .find("known here: constraints, curves, cuts, draw, layout") !=
+                  .find("known here: constraints, curves, cuts, draw, holes, layout") !=
               std::string::npos);
         CHECK(detail_of(R"({"units": "feet"})") == "must be one of: mm, cm, m, in");
     }

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/helpers/sample.h"
+#include "tests/helpers/sheets.h"
 
 namespace lastflat {
 
@@ -15,8 +16,8 @@ TEST_SUITE("core/inspect") {
         CHECK(found.triangles == 2);
         CHECK(found.components == 1);
         CHECK(found.area_mm2 == doctest::Approx(200.0));
-        REQUIRE(found.border_loops_mm.size() == 1);
-        CHECK(found.border_loops_mm[0] == doctest::Approx(60.0));
+        REQUIRE(found.border_loops.size() == 1);
+        CHECK(found.border_loops[0].length_mm == doctest::Approx(60.0));
         CHECK(found.size_mm.y() == doctest::Approx(20.0));
         CHECK(found.groups == std::vector<std::pair<std::string, std::size_t>>{{"a", 2}});
         CHECK_FALSE(found.fault.has_value());
@@ -27,7 +28,7 @@ TEST_SUITE("core/inspect") {
     TEST_CASE("a closed surface is described, and why it does not flatten") {
         const Inspection found =
             inspect("v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n", {});
-        CHECK(found.border_loops_mm.empty());
+        CHECK(found.border_loops.empty());
         REQUIRE(found.fault.has_value());
         CHECK(found.fault->code() == ErrorCode::region_invalid);
         CHECK(found.regions.empty());
@@ -37,15 +38,30 @@ TEST_SUITE("core/inspect") {
         const Inspection found = inspect(
             "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 20 0 0\nv 29 0 0\nv 20 9 0\nf 1 2 3\nf 4 5 6\n", {});
         CHECK(found.components == 2);
-        CHECK(found.border_loops_mm.size() == 2);
+        CHECK(found.border_loops.size() == 2);
     }
 
     TEST_CASE("the sample last is what it is made as") {
         const SampleLast last = make_sample_last();
         const Inspection found = inspect(write_model_obj(last.mesh), test::sample_options(last));
         CHECK(found.regions.size() == 2);
-        CHECK(found.border_loops_mm.size() == 2);  // topline and featherline
+        CHECK(found.border_loops.size() == 2);  // topline and featherline
         CHECK_FALSE(found.fault.has_value());
+    }
+
+    TEST_CASE("holes are told with their place and what they stand for") {
+        FlattenOptions open, keep;
+        open.weld.unit_mm = keep.weld.unit_mm = 1.0;
+        keep.cut.holes = HoleRule::keep;
+        const std::string tube = test::tube_obj(12, 2);
+        const Inspection kept = inspect(tube, keep), opened = inspect(tube, open);
+        REQUIRE(kept.regions.at(0).holes.size() == 1);
+        CHECK(kept.regions[0].holes[0].curvature == doctest::Approx(2 * M_PI));
+        CHECK(kept.regions[0].holes[0].length_mm == doctest::Approx(24 * std::sin(M_PI / 12)));
+        CHECK(kept.warnings.empty());
+        CHECK(opened.regions.at(0).holes.empty());
+        REQUIRE(opened.warnings.size() == 1);
+        CHECK(opened.warnings[0].code == "seam_added");
     }
 
     TEST_CASE("what is no surface is an error") {

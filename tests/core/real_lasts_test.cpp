@@ -3,6 +3,7 @@
 // that it was skipped.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -106,7 +107,7 @@ TEST_SUITE("core/real_lasts") {
         }
     }
 
-    TEST_CASE("the slit of an upper stays a slit") {
+    TEST_CASE("the slit of an upper stays a slit; welded shut, it is opened there again") {
         if (skipped()) return;
         Progress progress;
         const FlattenResult result =
@@ -115,9 +116,35 @@ TEST_SUITE("core/real_lasts") {
         CHECK(result.regions[0].metrics.flipped_triangles == 0);
         FlattenOptions welded;
         welded.weld.tolerance_mm = 0.0;
-        CHECK_THROWS_AS((void)flatten(bytes_of(folder() / "uomo_t10_size42_upper_disk_10k.obj"),
-                                      welded, progress),
-                        Error);
+        const FlattenResult ring =
+            flatten(bytes_of(folder() / "uomo_t10_size42_upper_disk_10k.obj"), welded, progress);
+        REQUIRE(result.regions.size() == 1);
+        CHECK(ring.warnings.at(0).code == "seam_added");
+        CHECK(*ring.regions[0].energy == doctest::Approx(*result.regions[0].energy).epsilon(1e-4));
+        REQUIRE(ring.pairs.size() == 1);
+        CHECK(std::abs(ring.pairs[0].difference_mm) < 1e-6);
+    }
+
+    TEST_CASE("the seam that opens a whole upper is the heel's, to a fraction of a millimetre") {
+        if (skipped()) return;
+        for (const char* name : {"donna_t30_size38", "uomo_t10_size42"}) {
+            CAPTURE(name);
+            const std::string model = bytes_of(folder() / (std::string(name) + "_closed.obj"));
+            FlattenOptions options;
+            options.weld.groups = {"upper"};
+            Progress progress;
+            const FlattenResult found = flatten(model, options, progress);
+            const FlattenResult with_true_curves = flatten_last(std::string(name) + "_closed");
+            const auto heel =
+                std::find_if(with_true_curves.pairs.begin(), with_true_curves.pairs.end(),
+                             [](const PairReport& p) { return p.curve == "heel"; });
+            REQUIRE(heel != with_true_curves.pairs.end());
+            REQUIRE(found.pairs.size() == 1);
+            CHECK(std::abs(found.pairs[0].length_mm - heel->length_mm) < 0.2);
+            CHECK(std::abs(found.pairs[0].difference_mm) < 1e-6);
+            CHECK(found.regions[0].metrics.flipped_triangles == 0);
+            CHECK(found.regions[0].metrics.border_crossings == 0);
+        }
     }
 
     TEST_CASE("a bare last: its curves, sides and foot are found, and its halves are as good") {

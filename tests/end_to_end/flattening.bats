@@ -199,3 +199,41 @@ PYTHON
     jq -e '.pairs | map(select(.curve == "heel" or .curve == "centre_front")) | length == 2 and all(.difference_mm < 0.001)' "$body"
     jq -e '.regions | all((.source_vertices | map(select(. == null)) | length) == (.source_points | length))' "$body"
 }
+
+@test "a whole upper is opened at the heel, a hole is locked, a dart is sewn" {
+    start_server
+    model=$sample/last.obj
+    echo '{"surface": {"groups": ["upper"]}}' > "$BATS_TEST_TMPDIR/ring.json"
+    flatten "$model" "$BATS_TEST_TMPDIR/ring.json"
+    ask "$url$job/result"
+    jq -e '(.warnings | map(.code)) == ["seam_added"] and (.pairs | length) == 1 and (.pairs[0] | .curve == "seam_1" and .a == .b and .verdict == "pass")' "$body"
+    jq -e '.constraints | length == 1 and (.[0] | .kind == "seam" and .verdict == "pass" and (.residual_mm | fabs) < 1e-6)' "$body"
+    heel=$(jq '.pairs[0].length_mm' "$body")
+
+    jq -c '. + {seams: ["heel"], locks: [{curve: "heel"}]} | del(.cuts, .regions)' "$sample/last.request.json" > "$BATS_TEST_TMPDIR/given.json"
+    flatten "$model" "$BATS_TEST_TMPDIR/given.json"
+    ask "$url$job/result"
+    jq -e --argjson made "$heel" '.warnings == [] and (.pairs[0] | .curve == "heel" and (.length_mm - $made | fabs) < 0.02 * $made)' "$body"
+
+    # A ring cut out of the lateral half, and a dart from the topline.
+    jq -c --rawfile model "$model" '
+        ($model | split("\n") | map(select(startswith("v ")) | split(" ")[1:] | map(tonumber))) as $at
+        | $at[.regions.lateral.contains.vertex] as $p
+        | .points = {middle: {position: $p}}
+        | .curves.topline.vertices as $top | ($top | length) as $n
+        | (if ($at[$top[$n / 4 | floor]][1] - $at[$top[0]][1]) * ($p[1] - $at[$top[0]][1]) > 0 then $n / 4 else $n * 3 / 4 end | floor) as $k
+        | .points.rim = {vertex: $top[$k]}
+        | .curves.dart = {from: "rim", to: "middle"} | .seams = ["dart"]' "$sample/last.request.json" > "$BATS_TEST_TMPDIR/dart.json"
+    flatten "$model" "$BATS_TEST_TMPDIR/dart.json"
+    ask "$url$job/result"
+    jq -e '.pairs | length == 3 and all(.verdict == "pass") and (map(select(.curve == "dart"))[0] | .a == "lateral" and .b == "lateral" and (.difference_mm | fabs) < 1e-6)' "$body"
+    jq -e '.constraints | all(.verdict == "pass") and (map(select(.kind == "seam")) | length == 1)' "$body"
+
+    # The upper as a ring: its top is a hole of the pattern, locked by the place where it is.
+    jq -c '{surface, holes: "keep", curves: {rim: {border_at: {vertex: .curves.topline.vertices[3]}}}, locks: [{curve: "rim", keep: "total"}]}' \
+        "$sample/last.request.json" > "$BATS_TEST_TMPDIR/keep.json"
+    flatten "$model" "$BATS_TEST_TMPDIR/keep.json"
+    ask "$url$job/result"
+    jq -e '.regions[0] | (.holes | length) == 1 and .holes[0].segments[0].curve == "rim" and .metrics.flipped_triangles == 0 and .metrics.border_crossings == 0' "$body"
+    jq -e '.constraints[0].verdict == "pass"' "$body"
+}

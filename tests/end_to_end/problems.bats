@@ -17,6 +17,9 @@ setup_file() {
 /curves/a~1b~0c	{"curves": {"a/b~c": {}}}
 /regions/lateral/contains	{"regions": {"lateral": {"contains": {}}}}
 /units	{"units": "feet"}
+/holes	{"holes": "fill"}
+/seams/0	{"seams": [7]}
+/curves/vent/border_at	{"curves": {"vent": {"border_at": {"vertex": 1, "position": [1, 2, 3]}}}}
 /method/name	{"method": {"name": "magic"}}
 /method/angles	{"method": {"name": "isometric", "angles": "curvature"}}
 /weld/tolerance_mm	{"weld": {"tolerance_mm": 2}}

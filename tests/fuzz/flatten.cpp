@@ -1,5 +1,6 @@
-// A small OBJ through the whole method. The first byte chooses the method and the locks; the curve
-// is the path over the first vertices of the file. What is returned must be what was promised.
+// A small OBJ through the whole method. The first byte chooses the method, what becomes of holes,
+// and the locks; the curve, a cut or a seam, is the path over the first vertices of the file. What
+// is returned must be what was promised.
 #include "core/flatten.h"
 
 #include <cmath>
@@ -25,17 +26,21 @@ FlattenOptions options_of(std::uint8_t choice) {
     options.method.angles =
         (choice & 4) != 0 ? AngleRule::averaged_conformal : AngleRule::curvature;
     options.method.border = (choice & 4) != 0 ? BorderShape::square : BorderShape::circle;
+    options.cut.holes = static_cast<HoleRule>(choice % 3);
     if (path > 0) {
         CurveSource curve{"heel", {}};
         for (Index v = 0; v <= path; ++v) curve.vertices.push_back(v);
         options.curves.push_back(curve);
         options.constraints.push_back(lock("heel", (choice & 8) != 0 ? Keep::total : Keep::edges));
-        options.cut.cuts.push_back("heel");
+        (choice % 2 == 0 ? options.cut.cuts : options.cut.seams).push_back("heel");
     }
     return options;
 }
 
 void check(const FlattenResult& result) {
+    if (result.method == MethodName::isometric) {
+        for (const ConstraintReport& report : result.constraints) fuzz::require(report.kept);
+    }
     for (const FlatRegion& flat : result.regions) {
         for (const Vec2& p : flat.chart.uv) fuzz::require(p.allFinite());
         fuzz::require(flat.chart.uv.size() == flat.region.positions.size());

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/cut/check_disk.h"
+#include "core/cut/find_border.h"
 #include "core/cut/region.h"
 
 namespace lastflat::test {
@@ -69,7 +69,7 @@ inline Region face() {
     }
     for (Index v = 0; v < static_cast<Index>(region.positions.size()); ++v)
         region.source_vertices.push_back(v);
-    region.border = checked_border(region);
+    find_border(region);
     return region;
 }
 

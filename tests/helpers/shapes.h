@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "core/cut/check_disk.h"
+#include "core/cut/find_border.h"
 #include "core/cut/region.h"
 
 namespace lastflat::test {
@@ -44,7 +44,7 @@ inline Region grid(int columns, int rows, const std::function<Vec3(double, doubl
         region.runs[1].vertices.push_back(id(columns, j));
         region.runs[3].vertices.push_back(id(0, j));
     }
-    region.border = checked_border(region);
+    find_border(region);
     return region;
 }
 

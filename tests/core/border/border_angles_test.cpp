@@ -85,7 +85,7 @@ TEST_SUITE("core/border/border_angles") {
             region.triangles.push_back(
                 {0, static_cast<Index>(1 + i), static_cast<Index>(1 + (i + 1) % 6)});
         }
-        region.border = checked_border(region);
+        find_border(region);
         const auto angles = angles_of(region, AngleRule::averaged_conformal);
         for (const auto& corners : angles.corners) {
             REQUIRE(corners.size() == 2);

@@ -161,7 +161,7 @@ TEST_SUITE("core/constrain/constrained_newton") {
         for (CurveRun& run : renumbered.runs) {
             for (Index& v : run.vertices) v = other(v);
         }
-        renumbered.border = checked_border(renumbered);
+        find_border(renumbered);
         const Points2 found = flattened(renumbered, locks).charts[0].uv;
         Points2 back(found.size());
         for (Index v = 0; v < n; ++v)

@@ -73,7 +73,7 @@ TEST_SUITE("core/fan/geodesic_fan") {
         Region region;
         region.positions = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}};
         region.triangles = {{0, 1, 2}, {0, 2, 3}};
-        region.border = checked_border(region);
+        find_border(region);
         const GeodesicFan fan = geodesic_fan(region, false, Progress());
         CHECK(fan.radius == doctest::Approx(5.0));
         CHECK(fan.spokes.size() == 4);
@@ -99,7 +99,7 @@ TEST_SUITE("core/fan/geodesic_fan") {
                 region.triangles.push_back({id(k, i), id(k + 1, i + 1), id(k, i + 1)});
             }
         }
-        region.border = checked_border(region);
+        find_border(region);
         const ExactGeodesics geodesics(region);
         CHECK_THROWS_AS((void)geodesic_centre(region, geodesics, Progress()), Error);
     }

@@ -44,7 +44,7 @@ Region flat_l() {
     }
     region.positions = used;
     region.runs.clear();
-    region.border = checked_border(region);
+    find_border(region);
     return region;
 }
 

@@ -18,7 +18,7 @@ Region half(bool other_side) {
     });
     if (other_side) {
         for (Triangle& t : region.triangles) std::swap(t[1], t[2]);
-        region.border = checked_border(region);
+        find_border(region);
     }
     region.runs[0].curve = "featherline";
     region.runs[1].curve = "centre_front";

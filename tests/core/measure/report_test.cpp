@@ -117,13 +117,13 @@ TEST_SUITE("core/measure/report") {
         Region a = flat_square(), b = flat_square();
         a.name = "a";
         b.name = "b";
-        std::reverse(b.runs[0].vertices.begin(), b.runs[0].vertices.end());  // the other way round
         a.runs.resize(1);
         b.runs.resize(1);
         const auto pairs = measure_pairs({a, b}, {{stretched(a, 1, 1)}, {stretched(b, 1.01, 1)}});
         REQUIRE(pairs.size() == 1);
         CHECK(pairs[0].a == "a");
         CHECK(pairs[0].b == "b");
+        CHECK(pairs[0].length_mm == doctest::Approx(20.0));
         CHECK(pairs[0].difference_mm == doctest::Approx(-0.2));
         CHECK(pairs[0].verdict == Verdict::fail);
     }

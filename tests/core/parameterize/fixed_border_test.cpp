@@ -46,7 +46,7 @@ TEST_SUITE("core/parameterize/fixed_border") {
             region.triangles.push_back(
                 {0, static_cast<Index>(1 + i), static_cast<Index>(1 + (i + 1) % 6)});
         }
-        region.border = checked_border(region);
+        find_border(region);
         Points2 border;
         Vec2 mean = Vec2::Zero();
         for (std::size_t i = 0; i < 6; ++i) {

@@ -1,5 +1,6 @@
-#include "core/cut/check_disk.h"
+#include "core/cut/find_border.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <utility>
 
@@ -48,6 +49,15 @@ std::string loop_places(const Region& region, const std::vector<std::vector<Inde
     return loops.size() > 6 ? text + " ..." : text;
 }
 
+/// The largest shadow of the loop on a plane, doubled: that of a slit is nothing.
+double spanned_area(const Region& region, const std::vector<Index>& loop) {
+    const Vec3& origin = region.position(loop.front());
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 1; i < loop.size(); ++i)
+        sum += (region.position(loop[i - 1]) - origin).cross(region.position(loop[i]) - origin);
+    return sum.norm();
+}
+
 [[noreturn]] void fail(const Region& region, const std::string& what) {
     throw Error(ErrorCode::region_not_disk, "region '" + region.name + "' is not a disk: " + what)
         .at_option({"regions", region.name})
@@ -56,9 +66,9 @@ std::string loop_places(const Region& region, const std::vector<std::vector<Inde
 
 }  // namespace
 
-std::vector<Index> checked_border(const Region& region) {
+void find_border(Region& region) {
     const auto edges = directed_edges(region);
-    const auto loops = border_loops(region, edges);
+    auto loops = border_loops(region, edges);
     std::size_t border_edges = 0;
     for (const auto& loop : loops) border_edges += loop.size();
     const auto vertices = static_cast<std::int64_t>(region.positions.size());
@@ -75,11 +85,12 @@ std::vector<Index> checked_border(const Region& region) {
         fail(region, "genus " + std::to_string(genus) + ", " + std::to_string(loops.size()) +
                          " border loop(s)" + loop_places(region, loops) + "; cut its handles open");
     }
-    if (loops.size() > 1) {
-        fail(region, std::to_string(loops.size()) + " border loops," + loop_places(region, loops) +
-                         "; cut from one to the other");
-    }
-    return loops.front();
+    const auto outer = std::max_element(loops.begin(), loops.end(), [&](auto& a, auto& b) {
+        return spanned_area(region, a) < spanned_area(region, b);
+    });
+    region.border = std::move(*outer);
+    loops.erase(outer);
+    region.holes = std::move(loops);
 }
 
 }  // namespace lastflat

@@ -1,0 +1,14 @@
+// Where a region ends.
+#pragma once
+
+#include "core/cut/region.h"
+
+namespace lastflat {
+
+/// Fills in `border` and `holes`: the loop that spans the largest area, counter-clockwise seen from
+/// outside, and all others, in the order of their smallest vertices. Every loop begins at its
+/// smallest vertex.
+/// Throws: Error{region_not_disk} if the region is closed or has handles, saying where.
+void find_border(Region& region);
+
+}  // namespace lastflat

@@ -1,0 +1,77 @@
+#include "core/locate/border_loop.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/locate/curve_error.h"
+
+namespace lastflat {
+namespace {
+
+using HalfedgeHandle = OpenMesh::HalfedgeHandle;
+
+[[noreturn]] void fail(const CurveSource& source, const std::string& what) {
+    fail_curve(source.name, "border_at", std::nullopt, what, source.border_at->position);
+}
+
+double size_of(const SurfaceMesh& surface) {
+    Eigen::AlignedBox3d box;
+    for (const auto v : surface.mesh.vertices()) {
+        if (!surface.mesh.is_isolated(v)) box.extend(surface.position(v.idx()));
+    }
+    return box.diagonal().norm();
+}
+
+/// The side of a border edge where there is no face, nearest to the position.
+HalfedgeHandle nearest_side(const SurfaceMesh& surface, const CurveSource& source,
+                            const Vec3& position) {
+    HalfedgeHandle best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto side : surface.mesh.halfedges()) {
+        if (!surface.mesh.is_boundary(side)) continue;
+        const Vec3 from = surface.position(surface.mesh.from_vertex_handle(side).idx());
+        const Vec3 along = surface.position(surface.mesh.to_vertex_handle(side).idx()) - from;
+        const double share = std::clamp(along.dot(position - from) / along.squaredNorm(), 0.0, 1.0);
+        const double distance = (from + share * along - position).norm();
+        if (distance >= least) continue;
+        least = distance;
+        best = side;
+    }
+    if (!best.is_valid()) fail(source, "the surface is closed and has no border");
+    if (least > border_reach * size_of(surface))
+        fail(source, "the place is " + std::to_string(std::lround(least)) +
+                         " mm away from the nearest border; are the units right?");
+    return best;
+}
+
+HalfedgeHandle side_at(const SurfaceMesh& surface, const CurveSource& source, Index id) {
+    if (!surface.is_on_surface(id))
+        fail(source, "vertex " + std::to_string(id) + " is not on the selected faces");
+    const OpenMesh::VertexHandle vertex(surface.welded_to[static_cast<std::size_t>(id)]);
+    for (const auto side : surface.mesh.voh_range(vertex)) {
+        if (surface.mesh.is_boundary(side)) return side;
+    }
+    fail(source, "vertex " + std::to_string(id) + " is not on the border");
+}
+
+}  // namespace
+
+std::vector<Index> border_loop(const SurfaceMesh& surface, const CurveSource& source) {
+    const HalfedgeHandle start = source.border_at->vertex
+                                     ? side_at(surface, source, *source.border_at->vertex)
+                                     : nearest_side(surface, source, *source.border_at->position);
+    std::vector<Index> loop;
+    HalfedgeHandle side = start;
+    do {
+        loop.push_back(surface.mesh.from_vertex_handle(side).idx());
+        side = surface.mesh.next_halfedge_handle(side);
+    } while (side != start);
+    std::reverse(loop.begin(), loop.end());
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+    loop.push_back(loop.front());
+    return loop;
+}
+
+}  // namespace lastflat

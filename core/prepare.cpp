@@ -1,0 +1,149 @@
+#include "core/prepare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/constrain/check_constraints.h"
+#include "core/landmarks/bare_last.h"
+#include "core/numerics/tolerances.h"
+
+namespace lastflat {
+
+std::optional<Landmarks> fill_in_landmarks(const SurfaceMesh& surface, FlattenOptions& options) {
+    const bool says_something = !options.cut.cuts.empty() || !options.cut.seams.empty() ||
+                                !options.cut.regions.empty() || !options.weld.groups.empty();
+    const auto is_open = [&] {
+        return std::any_of(surface.mesh.edges_begin(), surface.mesh.edges_end(),
+                           [&](auto edge) { return surface.mesh.is_boundary(edge); });
+    };
+    if (says_something || is_open()) return std::nullopt;
+    Landmarks found = find_landmarks(surface);
+    for (const CurveSource& curve : found.curves) {
+        const bool is_own = std::any_of(options.curves.begin(), options.curves.end(),
+                                        [&](const auto& own) { return own.name == curve.name; });
+        if (!is_own) options.curves.push_back(curve);
+    }
+    found.cut.holes = options.cut.holes;
+    options.cut = found.cut;
+    if (options.constraints.empty()) options.constraints = {lock("centre_front"), lock("heel")};
+    return found;
+}
+
+namespace {
+
+/// Curves without any edge in a region would be certified by nobody: say so.
+void warn_of_absent_curves(const Curves& curves, const std::vector<Region>& regions,
+                           std::vector<Warning>& warnings) {
+    for (const Curve& curve : curves) {
+        const bool present = std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
+            return std::any_of(region.runs.begin(), region.runs.end(),
+                               [&](const CurveRun& run) { return run.curve == curve.name; });
+        });
+        if (!present) {
+            warnings.push_back({"curve_not_in_regions",
+                                "curve '" + curve.name + "' runs through none of the regions",
+                                std::nullopt});
+        }
+    }
+}
+
+InsertedCurves put_curves(SurfaceMesh& surface, const FlattenOptions& options, bool found) {
+    try {
+        return insert_curves(surface, locate_curves(surface, options.curves, options.points));
+    } catch (const Error& error) {
+        if (found) fail_search(error.what());
+        throw;
+    }
+}
+
+/// Holes of broken models are many and small; each seam cuts the whole surface anew.
+constexpr std::size_t most_made_seams = 64;
+
+/// A name that no curve has: seam_1, seam_2, ...
+std::string new_seam_name(const Curves& curves, std::size_t& number) {
+    for (;;) {
+        const std::string name = "seam_" + std::to_string(++number);
+        if (std::none_of(curves.begin(), curves.end(), [&](auto& c) { return c.name == name; }))
+            return name;
+    }
+}
+
+Warning seam_warning(const Region& region, const HoleSeam& seam, const std::string& name) {
+    const long degrees = std::lround(seam.curvature * 180.0 / std::numbers::pi);
+    return {"seam_added",
+            "region '" + region.name + "': a hole stands for " + std::to_string(degrees) +
+                " degrees of curvature and is opened along " +
+                (seam.curve.empty() ? "the new seam '" : "the curve '") + name + "', " +
+                std::to_string(std::lround(seam.length)) + " mm long, by " + place(seam.position) +
+                "; cut it where it suits you, or keep it with \"holes\": \"keep\"",
+            seam.position};
+}
+
+/// Opens one hole of every region that has one to open; whether there was any.
+bool open_holes(SurfaceMesh& surface, FlattenOptions& options, CutSurface& cut,
+                const Progress& progress) {
+    std::vector<SurfaceLine> lines;
+    const std::size_t before = options.cut.seams.size();
+    for (const Region& region : cut.regions) {
+        const bool is_first =
+            std::none_of(region.runs.begin(), region.runs.end(), [&](const CurveRun& run) {
+                const auto& seams = options.cut.seams;
+                return std::find(seams.begin(), seams.end(), run.curve) != seams.end();
+            });
+        for (HoleSeam& seam : seams_of_next_hole(region, options.cut.holes, is_first, progress)) {
+            std::size_t number = lines.size();
+            const std::string name =
+                seam.curve.empty() ? new_seam_name(cut.inserted.curves, number) : seam.curve;
+            cut.warnings.push_back(seam_warning(region, seam, name));
+            options.cut.seams.push_back(name);
+            if (seam.curve.empty())
+                lines.push_back({name, std::move(seam.places), tolerance::geodesic_snap});
+        }
+    }
+    if (options.cut.seams.size() == before) return false;
+    cut.inserted = insert_more_curves(surface, std::move(cut.inserted), lines);
+    cut.regions = cut_into_regions(surface, cut.inserted.curves, options.cut);
+    return true;
+}
+
+}  // namespace
+
+CutSurface cut_surface(SurfaceMesh& surface, FlattenOptions& options, bool found,
+                       const Progress& progress) {
+    CutSurface cut;
+    cut.inserted = put_curves(surface, options, found);
+    cut.regions = cut_into_regions(surface, cut.inserted.curves, options.cut);
+    const std::size_t asked = options.cut.seams.size();
+    while (open_holes(surface, options, cut, progress)) {
+        if (options.cut.seams.size() - asked > most_made_seams)
+            throw Error(ErrorCode::region_not_disk,
+                        "more than " + std::to_string(most_made_seams) +
+                            " holes would have to be opened; mend the model, or keep them with "
+                            "\"holes\": \"keep\"")
+                .at_option({"holes"});
+    }
+    for (std::size_t s = 0; s < options.cut.seams.size(); ++s) {
+        options.constraints.push_back(seam(options.cut.seams[s]));
+        if (s < asked) options.constraints.back().option = {"seams", std::to_string(s)};
+    }
+    check_constraints(options.constraints, cut.inserted.curves, cut.regions);
+    check_zones(options.weights.zones, cut.inserted.curves, cut.regions);
+    warn_of_absent_curves(cut.inserted.curves, cut.regions, cut.warnings);
+    return cut;
+}
+
+/// A vertex that was welded to another is named by that one.
+void name_welded_vertices(const SurfaceMesh& surface, FlattenOptions& options) {
+    const auto rename = [&](Index& vertex) {
+        if (surface.is_on_surface(vertex))
+            vertex = surface.welded_to[static_cast<std::size_t>(vertex)];
+    };
+    for (Constraint& constraint : options.constraints) rename(constraint.vertex);
+    for (Zone& zone : options.weights.zones) {
+        rename(zone.vertex);
+        for (Index& vertex : zone.vertices) rename(vertex);
+    }
+}
+
+}  // namespace lastflat

@@ -1,0 +1,215 @@
+// Whole runs on pieces with holes, slits and seams.
+#include <doctest/doctest.h>
+
+#include "core/flatten.h"
+#include "core/numerics/polygon.h"
+#include "tests/helpers/sheets.h"
+
+namespace lastflat {
+namespace {
+
+FlattenResult flatten(const std::string& obj, FlattenOptions options) {
+    Progress progress;
+    options.weld.unit_mm = 1.0;
+    FlattenResult result = lastflat::flatten(obj, options, progress);
+    for (const FlatRegion& flat : result.regions) {
+        CHECK(flat.metrics.flipped_triangles == 0);
+        CHECK(flat.metrics.border_crossings == 0);
+    }
+    for (const ConstraintReport& report : result.constraints) CHECK(report.kept);
+    return result;
+}
+
+bool is_hole(int i, int j) {
+    return i >= 3 && i < 5 && j >= 2 && j < 5;
+}
+
+FlattenOptions with(const std::vector<CurveSource>& curves, const CutOptions& cut) {
+    FlattenOptions options;
+    options.curves = curves;
+    options.cut = cut;
+    return options;
+}
+
+CurveSource border_at(const std::string& name, const Vec3& position) {
+    CurveSource source{name};
+    source.border_at = PointSource{"", std::nullopt, position};
+    return source;
+}
+
+}  // namespace
+
+TEST_SUITE("core/holes and seams") {
+    TEST_CASE("a plane with a hole comes out as it is, and its hole in the outline") {
+        const auto result = flatten(test::sheet_obj(8, 8, test::flat, is_hole), {});
+        REQUIRE(result.regions.size() == 1);
+        const FlatRegion& flat = result.regions[0];
+        CHECK(*flat.energy == doctest::Approx(1.0).epsilon(1e-12));
+        REQUIRE(flat.outline.holes.size() == 1);
+        CHECK(signed_area(flat.outline.points) == doctest::Approx(6400.0));
+        CHECK(signed_area(flat.outline.holes[0].points) == doctest::Approx(-600.0));
+        CHECK(result.warnings.empty());
+    }
+
+    TEST_CASE("a hole is free, or locked by the name that its place gives it") {
+        const std::string obj = test::sheet_obj(8, 8, test::bent, is_hole);
+        FlattenOptions options = with({border_at("eyelet", test::bent(3, 3))}, {});
+        const auto free = flatten(obj, options);
+        options.constraints = {lock("eyelet")};
+        const auto locked = flatten(obj, options);
+        const CurveReport &before = free.regions[0].curves[0], &after = locked.regions[0].curves[0];
+        CHECK(before.length_3d_mm == doctest::Approx(after.length_3d_mm));
+        CHECK(before.worst_edge_error_mm > 1e-3);
+        CHECK(after.worst_edge_error_mm < 1e-9);
+        CHECK(*locked.regions[0].energy > *free.regions[0].energy);
+        const auto& segments = locked.regions[0].outline.holes[0].segments;
+        REQUIRE(segments.size() == 1);
+        CHECK(segments[0].curve == "eyelet");
+        CHECK(locked.constraints.size() == 1);
+    }
+
+    TEST_CASE("the area of a piece with a hole can be kept") {
+        FlattenOptions options;
+        Constraint area;
+        area.kind = ConstraintKind::total_area;
+        options.constraints = {area};
+        const auto result = flatten(test::sheet_obj(8, 8, test::bent, is_hole), options);
+        CHECK(result.regions[0].metrics.area_error < 1e-9);
+    }
+
+    TEST_CASE("every method has an answer on a piece with a hole") {
+        for (const MethodName method :
+             {MethodName::mean_value, MethodName::geodesic_fan, MethodName::mips,
+              MethodName::green_lagrange, MethodName::isometric}) {
+            FlattenOptions options;
+            options.method.name = method;
+            const auto result = flatten(test::sheet_obj(8, 8, test::bent, is_hole), options);
+            CHECK(result.regions[0].outline.holes.size() == 1);
+        }
+    }
+
+    TEST_CASE("a tube is opened by itself and unrolls, both sides equally long") {
+        const auto result = flatten(test::tube_obj(16, 5), {});
+        REQUIRE(result.regions.size() == 1);
+        CHECK(*result.regions[0].energy == doctest::Approx(1.0).epsilon(1e-9));
+        CHECK(result.regions[0].outline.holes.empty());
+        REQUIRE(result.pairs.size() == 1);
+        CHECK(result.pairs[0].curve == "seam_1");
+        CHECK(result.pairs[0].length_mm == doctest::Approx(5.0));
+        CHECK(std::abs(result.pairs[0].difference_mm) < 1e-9);
+        REQUIRE(result.warnings.size() == 1);
+        CHECK(result.warnings[0].code == "seam_added");
+        REQUIRE(result.constraints.size() == 1);
+        CHECK(result.asked[0].title() == "seam along seam_1");
+    }
+
+    TEST_CASE("a tube that is to stay closed is flattened as a ring") {
+        FlattenOptions options;
+        options.cut.holes = HoleRule::keep;
+        const auto result = flatten(test::tube_obj(16, 5), options);
+        CHECK(result.regions[0].outline.holes.size() == 1);
+        CHECK(*result.regions[0].energy > 1.1);
+        CHECK(result.warnings.empty());
+    }
+
+    TEST_CASE("all holes are opened if that is asked for, one seam each") {
+        FlattenOptions options;
+        options.cut.holes = HoleRule::open;
+        const auto result =
+            flatten(test::sheet_obj(9, 9, test::bent,
+                                    [](int i, int j) { return i % 3 == 1 && j % 3 == 1; }),
+                    options);
+        REQUIRE(result.regions.size() == 1);
+        CHECK(result.regions[0].outline.holes.empty());
+        CHECK(result.pairs.size() == 9);
+        CHECK(result.warnings.size() == 9);
+        for (const PairReport& pair : result.pairs) CHECK(std::abs(pair.difference_mm) < 1e-9);
+    }
+
+    TEST_CASE("too many holes to open are refused") {
+        FlattenOptions options;
+        options.cut.holes = HoleRule::open;
+        Progress progress;
+        const std::string obj = test::sheet_obj(
+            19, 19, test::flat, [](int i, int j) { return i % 2 == 1 && j % 2 == 1; });
+        CHECK_THROWS_WITH_AS((void)lastflat::flatten(obj, options, progress),
+                             doctest::Contains("more than 64 holes"), Error);
+    }
+
+    TEST_CASE("a dart and a slit open, and their sides stay equal") {
+        const std::string obj = test::sheet_obj(8, 8, test::bent);
+        const std::vector<CurveSource> curves{{"dart", {4, 13, 22}}, {"slit", {48, 49, 50, 51}}};
+        const auto free = flatten(obj, with(curves, {{"dart", "slit"}, {}}));
+        const auto sewn = flatten(obj, with(curves, {{}, {}, {"dart", "slit"}}));
+        REQUIRE(sewn.pairs.size() == 2);
+        REQUIRE(free.pairs.size() == 2);
+        double left_alone = 0.0;
+        for (const PairReport& pair : free.pairs)
+            left_alone = std::max(left_alone, std::abs(pair.difference_mm));
+        CHECK(left_alone > 1e-6);
+        for (const PairReport& pair : sewn.pairs) CHECK(std::abs(pair.difference_mm) < 1e-9);
+        CHECK(sewn.regions[0].outline.holes.size() == 1);
+        CHECK(*sewn.regions[0].energy >= *free.regions[0].energy);
+    }
+
+    TEST_CASE("a seam that another one ends on is equal on both parts") {
+        const std::vector<CurveSource> curves{{"mid", {4, 13, 22, 31, 40, 49, 58, 67, 76}},
+                                              {"side", {31, 32, 33, 34, 35}}};
+        const auto result = flatten(
+            test::sheet_obj(8, 8, test::bent),
+            with(curves, {{}, {{"a", 27, {}}, {"b", 26, {}}, {"c", 62, {}}}, {"mid", "side"}}));
+        CHECK(result.regions.size() == 3);
+        CHECK(result.pairs.size() == 3);
+        CHECK(result.constraints.size() == 3);
+        for (const PairReport& pair : result.pairs) CHECK(std::abs(pair.difference_mm) < 1e-9);
+    }
+
+    TEST_CASE("a seam whose both sides are locked as well says nothing new") {
+        FlattenOptions options = with({{"dart", {4, 13, 22}}}, {{}, {}, {"dart"}});
+        for (const Keep keep : {Keep::edges, Keep::total}) {
+            options.constraints = {lock("dart", keep)};
+            const auto result = flatten(test::sheet_obj(8, 8, test::bent), options);
+            CHECK(result.constraints.size() == 3);
+            CHECK(result.regions[0].curves[0].length_2d_mm ==
+                  doctest::Approx(result.regions[0].curves[0].length_3d_mm).epsilon(1e-9));
+        }
+    }
+
+    TEST_CASE("a seam needs two sides") {
+        Progress progress;
+        const auto edge = with({{"edge", {0, 1, 2}}}, {{}, {}, {"edge"}});
+        CHECK_THROWS_WITH_AS(
+            (void)lastflat::flatten(test::sheet_obj(4, 4, test::flat), edge, progress),
+            doctest::Contains("one side of it at most"), Error);
+        const auto nothing = with({}, {{}, {}, {"dart"}});
+        CHECK_THROWS_WITH_AS(
+            (void)lastflat::flatten(test::sheet_obj(4, 4, test::flat), nothing, progress),
+            "seam 'dart' names no curve", Error);
+    }
+
+    TEST_CASE("a border loop is found by its place, or refused") {
+        Progress progress;
+        const auto far = with({border_at("eyelet", {0, 0, 900})}, {});
+        CHECK_THROWS_WITH_AS(
+            (void)lastflat::flatten(test::sheet_obj(4, 4, test::flat), far, progress),
+            doctest::Contains("mm away from the nearest border"), Error);
+        CurveSource inside{"eyelet"};
+        inside.border_at = PointSource{"", 12, std::nullopt};
+        CHECK_THROWS_WITH_AS((void)lastflat::flatten(test::sheet_obj(4, 4, test::flat),
+                                                     with({inside}, {}), progress),
+                             doctest::Contains("vertex 12 is not on the border"), Error);
+    }
+
+    TEST_CASE("one and two threads give the same bits") {
+        FlattenOptions options;
+        const std::string obj = test::tube_obj(24, 8, [](double angle, int j) {
+            return Vec3((10 + j) * std::cos(angle), 8 * std::sin(angle), 3.0 * j);
+        });
+        const auto one = flatten(obj, options);
+        options.threads = 2;
+        const auto two = flatten(obj, options);
+        CHECK(one.regions[0].chart.uv == two.regions[0].chart.uv);
+    }
+}
+
+}  // namespace lastflat
