@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <bit>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "core/load/byte_order.h"
 #include "core/load/decode_draco.h"
 #include "core/load/gltf_guard.h"
+#include "core/load/tinygltf.h"
 
 namespace lastflat {
 namespace {
@@ -49,17 +52,13 @@ void undo_filter(const std::string& filter, std::string& bytes, std::size_t coun
     }
 }
 
-/// The bytes of one compressed view.
-std::string decoded(const Json& view, std::string_view bin, std::size_t most_bytes) {
-    const std::size_t offset = number(view, "byteOffset"), length = number(view, "byteLength");
+/// One compressed view, decoded.
+std::string decoded(const Json& view, std::string_view packed, std::size_t most_bytes) {
     const std::size_t stride = number(view, "byteStride"), count = number(view, "count");
-    if (number(view, "buffer", 1) != 0)
-        fail("only the GLB's own buffer is read", ErrorCode::unsupported_model);
-    if (offset > bin.size() || length > bin.size() - offset)
-        fail("a view reaches past the end of its buffer");
     if (stride == 0 || stride > 256 || count == 0 || count > most_bytes / stride)
         fail("a view has a count or a stride that it cannot have", ErrorCode::model_too_large);
-    const auto* data = reinterpret_cast<const unsigned char*>(bin.data()) + offset;
+    const auto* data = reinterpret_cast<const unsigned char*>(packed.data());
+    const std::size_t length = packed.size();
     const std::string mode = text(view, "mode");
     std::string bytes(count * stride, '\0');
     int status = -1;
@@ -107,15 +106,40 @@ std::string glb_of(std::string json, std::string bin) {
     return glb;
 }
 
-/// The document and its one buffer while the extensions are taken out of them.
+/// The bytes of a buffer that the document itself holds; one without a URI stands for what the
+/// compressed views hold, and has none.
+std::vector<unsigned char> embedded(const Json& buffer) {
+    std::vector<unsigned char> bytes;
+    std::string type;
+    if (!buffer.contains("uri")) return bytes;
+    if (!tinygltf::DecodeDataURI(&bytes, type, text(buffer, "uri"), 0, false))
+        fail("a buffer's data URI cannot be decoded");
+    return bytes;
+}
+
+/// The document and its buffers, joined to one, while the extensions are taken out of them.
 class Unpacker {
 public:
-    Unpacker(std::string_view json, std::string_view bin, const LoadLimits& limits)
+    /// `bin`: the buffer that a GLB holds beside the document.
+    Unpacker(std::string_view json, std::optional<std::string_view> bin, const LoadLimits& limits)
         : document_(Json::parse(json)),
           limits_(limits),
           // More for each vertex and triangle than any attribute that is read.
-          room_(256 * (limits.vertices + limits.triangles)),
-          bin_(bin) {}
+          room_(256 * (limits.vertices + limits.triangles)) {
+        for (const Json& buffer : list("buffers")) {
+            if (!buffer.is_object()) fail("a buffer is no object");
+            const bool is_bin = bin && buffers_.empty() && !buffer.contains("uri");
+            const std::size_t begin = bin_.size();
+            if (is_bin) {
+                bin_ += *bin;
+            } else {
+                const auto bytes = embedded(buffer);
+                bin_.append(bytes.begin(), bytes.end());
+            }
+            buffers_.push_back({begin, bin_.size() - begin});
+            bin_.resize((bin_.size() + 3) / 4 * 4, '\0');
+        }
+    }
 
     std::string unpacked() {
         for (Json& view : list("bufferViews")) unpack_view(view);
@@ -156,15 +180,31 @@ private:
         return begin;
     }
 
+    struct Part {
+        std::size_t begin, size;
+    };
+
+    /// Where the bytes of a view are in the one buffer.
+    [[nodiscard]] Part part_of(const Json& view) const {
+        const std::size_t b = number(view, "buffer", buffers_.size());
+        if (b >= buffers_.size()) fail("a view names no buffer");
+        const std::size_t offset = number(view, "byteOffset"), length = number(view, "byteLength");
+        if (offset > buffers_[b].size || length > buffers_[b].size - offset)
+            fail("a view reaches past the end of its buffer");
+        return {buffers_[b].begin + offset, length};
+    }
+
     void unpack_view(Json& view) {
         if (!view.is_object()) fail("a buffer view is no object");
         const Json* packed = extension_of(view, meshopt);
         if (packed == nullptr) {
-            if (number(view, "buffer") != 0)
-                fail("a view refers to another buffer", ErrorCode::unsupported_model);
+            view["byteOffset"] = part_of(view).begin;
+            view["buffer"] = 0;
             return;
         }
-        const std::string bytes = decoded(*packed, bin_, room_);
+        const Part part = part_of(*packed);
+        const std::string bytes =
+            decoded(*packed, std::string_view(bin_).substr(part.begin, part.size), room_);
         view["buffer"] = 0;
         view["byteOffset"] = append(bytes);
         view["byteLength"] = bytes.size();
@@ -215,6 +255,7 @@ private:
     const LoadLimits& limits_;
     std::size_t room_;
     std::string bin_;
+    std::vector<Part> buffers_;  ///< as they were
 };
 
 }  // namespace
@@ -225,6 +266,10 @@ bool is_packed_gltf(std::string_view json) {
     return required != document.end() &&
            std::any_of(required->begin(), required->end(),
                        [](const Json& name) { return name == meshopt || name == draco; });
+}
+
+std::string unpack_gltf(std::string_view json, const LoadLimits& limits) {
+    return Unpacker(json, std::nullopt, limits).unpacked();
 }
 
 std::string unpack_glb(std::string_view glb, const LoadLimits& limits) {

@@ -11,11 +11,14 @@ namespace lastflat {
 /// Whether the glTF document requires one of the two extensions.
 [[nodiscard]] bool is_packed_gltf(std::string_view json);
 
-/// The same GLB with every compressed buffer view and primitive decoded, of these only positions
-/// and triangles, and the extensions gone.
+/// A GLB with every compressed buffer view and primitive decoded, of these only positions and
+/// triangles, the extensions gone, and all buffers joined to its own.
 ///
-/// In:     a GLB that `guard_gltf` has passed, whose compressed bytes are in its own BIN chunk.
+/// In:     a GLB, or a glTF document, that `guard_gltf` has passed: its buffers are data URIs or
+/// the
+///         GLB's own.
 /// Throws: Error{unreadable_model, unsupported_model, model_too_large}.
 [[nodiscard]] std::string unpack_glb(std::string_view glb, const LoadLimits& limits);
+[[nodiscard]] std::string unpack_gltf(std::string_view json, const LoadLimits& limits);
 
 }  // namespace lastflat

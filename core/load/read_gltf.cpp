@@ -296,9 +296,7 @@ RawMesh read_with_tinygltf(std::string_view bytes, bool binary, const LoadLimits
 
 RawMesh read_gltf(std::string_view text, const LoadLimits& limits) {
     guard_gltf(text, limits);
-    if (is_packed_gltf(text))
-        fail("compressed data are read in GLB only; send the model as GLB",
-             ErrorCode::unsupported_model);
+    if (is_packed_gltf(text)) return read_with_tinygltf(unpack_gltf(text, limits), true, limits);
     return read_with_tinygltf(text, false, limits);
 }
 

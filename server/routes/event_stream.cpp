@@ -52,6 +52,32 @@ public:
     }
 
 private:
+    /// What the result says of the model and of itself.
+    [[nodiscard]] std::string remarks(const JobRecord& job) const {
+        if (job.state != JobState::succeeded || job.result.empty()) return {};
+        const auto log = [&](const Json& data) {
+            return event("log", std::to_string(job.revision), data.dump());
+        };
+        Json result;
+        try {
+            result = Json::parse(result_bytes(service_, job, result_part(job, "metrics", false)));
+        } catch (const Refusal& refusal) {  // as whoever asks for the result will be told
+            return log({{"level", "error"},
+                        {"code", refusal.problem().code},
+                        {"detail", refusal.problem().detail}});
+        }
+        std::string events;
+        for (const auto& [list, level] :
+             {std::pair("repairs", "info"), std::pair("warnings", "warning")}) {
+            for (const Json& remark : result.at(list)) {
+                Json data{{"level", level}};
+                data.update(remark);
+                events += log(data);
+            }
+        }
+        return events;
+    }
+
     bool send_news(const http::Write& write) {
         const auto job = service_.jobs.find(owner_, id_);
         if (!job) {
@@ -69,6 +95,7 @@ private:
             news += event("state", std::to_string(seen_), data.dump());
         }
         if (is_final(job->state)) {
+            news += remarks(*job);
             news += event("done", std::to_string(job->revision), job_json(service_, *job));
             write(news);
             return false;

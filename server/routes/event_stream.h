@@ -7,8 +7,9 @@
 namespace lastflat::server {
 
 /// GET /v1/jobs/{id}/events. Events: `state` for every state the job has had since the one that
-/// `Last-Event-ID` names, `progress`, `done` with the job, `shutdown` when the service ends.
-/// `service` must outlive the route.
+/// `Last-Event-ID` names, `progress`, `log` for what a finished job has to say (what was mended in
+/// the model, warnings), `done` with the job, `shutdown` when the service ends. `service` must
+/// outlive the route.
 [[nodiscard]] http::Route event_route(Service& service);
 
 }  // namespace lastflat::server

@@ -209,6 +209,7 @@ PYTHON
     jq -e '(.warnings | map(.code)) == ["seam_added"] and (.pairs | length) == 1 and (.pairs[0] | .curve == "seam_1" and .a == .b and .verdict == "pass")' "$body"
     jq -e '.constraints | length == 1 and (.[0] | .kind == "seam" and .verdict == "pass" and (.residual_mm | fabs) < 1e-6)' "$body"
     heel=$(jq '.pairs[0].length_mm' "$body")
+    curl -sSN "$url$job/events" | grep -A2 '^event: log' | grep '^data: ' | cut -c7- | jq -se 'map(select(.level == "warning")) | map(.code) == ["seam_added"]'
 
     jq -c '. + {seams: ["heel"], locks: [{curve: "heel"}]} | del(.cuts, .regions)' "$sample/last.request.json" > "$BATS_TEST_TMPDIR/given.json"
     flatten "$model" "$BATS_TEST_TMPDIR/given.json"

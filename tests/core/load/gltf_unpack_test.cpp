@@ -5,6 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "api/base64.h"
+#include "core/load/gltf_guard.h"
+
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -102,6 +105,17 @@ std::string packed_with_draco() {
     return glb(document, std::string(buffer.data(), buffer.size()));
 }
 
+/// The same as one document whose buffer is a data URI.
+std::string document_of(const std::string& glb) {
+    const std::string_view json = json_chunk(glb);
+    const std::string bin =
+        glb.substr(static_cast<std::size_t>(json.data() - glb.data()) + json.size() + 8);
+    Json document = Json::parse(json);
+    document["buffers"][0]["uri"] =
+        "data:application/octet-stream;base64," + api::encode_base64(bin);
+    return document.dump();
+}
+
 double area(const RawMesh& mesh) {
     double sum = 0.0;
     for (const Triangle& t : mesh.triangles) {
@@ -119,12 +133,26 @@ double area(const RawMesh& mesh) {
 
 TEST_SUITE("core/load/gltf_unpack") {
     TEST_CASE("meshopt and Draco give the same square") {
-        for (const std::string& bytes : {packed_with_meshopt(), packed_with_draco()}) {
+        const std::string meshopt = packed_with_meshopt(), draco = packed_with_draco();
+        for (const std::string& bytes :
+             {meshopt, draco, document_of(meshopt), document_of(draco)}) {
             const RawMesh mesh = load_model(bytes);
             CHECK(mesh.triangles.size() == 2);
             CHECK(mesh.positions.size() == 4);
             CHECK(area(mesh) == doctest::Approx(2 * std::sqrt(5.0)));
         }
+    }
+
+    TEST_CASE("a compressed view of a buffer that is not there is refused") {
+        Json document = Json::parse(document_of(packed_with_meshopt()));
+        document["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["buffer"] = 1;
+        CHECK_THROWS_WITH_AS((void)load_model(document.dump()),
+                             doctest::Contains("reaches past the end of its buffer"), Error);
+        document["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["buffer"] = 7;
+        CHECK_THROWS_WITH_AS((void)load_model(document.dump()),
+                             doctest::Contains("names no buffer"), Error);
+        document["buffers"][0]["uri"] = "data:nonsense";
+        CHECK_THROWS_AS((void)load_model(document.dump()), Error);
     }
 
     TEST_CASE("bytes that are cut off or changed are refused, never read") {
