@@ -9,47 +9,13 @@
 #include <optional>
 
 #include "core/numerics/box_tree.h"
+#include "core/weld/borders.h"
+#include "core/weld/join_borders.h"
 #include "core/weld/merge_vertices.h"
 #include "core/weld/sides.h"
 
 namespace lastflat {
 namespace {
-
-/// A closed line of border vertices, as the border's edges run.
-struct Loop {
-    std::vector<Index> vertices;
-    std::vector<double> along;  ///< per vertex, mm from the first
-    double length = 0.0;
-
-    [[nodiscard]] std::size_t size() const { return vertices.size(); }
-    [[nodiscard]] Index vertex(std::size_t i) const { return vertices[i % vertices.size()]; }
-};
-
-std::vector<Loop> border_loops(const Faces& faces) {
-    std::map<Index, std::vector<Index>> next;
-    for_each_edge(sides_by_edge(faces.triangles), [&](auto first, auto last) {
-        if (last - first == 1) next[first->from()].push_back(first->to());
-    });
-    std::vector<Loop> loops;
-    while (!next.empty()) {
-        Loop loop;
-        auto at = next.begin();
-        const Index begin = at->first;
-        bool closed = false;
-        while (at != next.end() && !closed) {
-            const Index from = at->first, to = at->second.back();
-            at->second.pop_back();
-            if (at->second.empty()) next.erase(at);
-            loop.vertices.push_back(from);
-            loop.along.push_back(loop.length);
-            loop.length += (faces.position(to) - faces.position(from)).norm();
-            closed = to == begin;
-            at = next.find(to);
-        }
-        if (closed && loop.size() > 2) loops.push_back(std::move(loop));
-    }
-    return loops;
-}
 
 /// The nearest place of one loop.
 struct Foot {
@@ -95,42 +61,6 @@ private:
     const Loop& loop_;
     BoxTree<Box3> tree_;
 };
-
-/// Vertices that come between the ends of border edges, in their order.
-using Insertions = std::map<std::pair<Index, Index>, std::vector<Index>>;
-
-void insert_into_edges(Faces& faces, const Insertions& insertions) {
-    std::map<std::pair<Index, Index>, std::size_t> triangle_of;
-    const auto file = [&](std::size_t t) {
-        for (std::size_t i = 0; i < 3; ++i)
-            triangle_of[{faces.triangles[t][i], faces.triangles[t][(i + 1) % 3]}] = t;
-    };
-    for (std::size_t t = 0; t < faces.triangles.size(); ++t) file(t);
-    for (const auto& [edge, inserted] : insertions) {
-        const std::size_t place = triangle_of.at(edge);
-        const Triangle whole = faces.triangles[place];
-        std::size_t corner = 0;
-        while (whole[corner] != edge.first) ++corner;
-        const Index apex = whole[(corner + 2) % 3];
-        Index from = edge.first;
-        for (const Index vertex : inserted) {
-            faces.triangles.push_back({from, vertex, apex});
-            faces.labels.push_back(faces.labels[place]);
-            file(faces.triangles.size() - 1);
-            from = vertex;
-        }
-        faces.triangles[place] = {from, edge.second, apex};
-        file(place);
-    }
-}
-
-void rename(Faces& faces, const std::map<Index, Index>& renamed) {
-    for (Index& stands_for : faces.welded_to) {
-        if (const auto found = renamed.find(stands_for); found != renamed.end())
-            stands_for = found->second;
-    }
-    faces.rename();
-}
 
 /// One vertex on the common line of two loops: of a, of b, or one of each that become one.
 struct Bead {
@@ -188,7 +118,7 @@ public:
             position = bead.position;
             (bead.joins() ? joined : inserted).at(position);
         }
-        rename(faces_, renamed);
+        rename_vertices(faces_, renamed);
         return furthest;
     }
 
@@ -303,7 +233,7 @@ void join_same_places(Faces& faces, double tolerance, RepairNote& note) {
         note.at(places[i]);
         renamed[vertices[i]] = stays;
     }
-    rename(faces, renamed);
+    rename_vertices(faces, renamed);
 }
 
 /// Whether two loops were found that fit, and were closed.
@@ -383,6 +313,7 @@ void stitch(Faces& faces, double tolerance_mm, std::vector<Repair>& repairs) {
     for (int seam = 0; seam < most_seams; ++seam) {
         if (!zip_one_pair(faces, tolerance_mm, furthest, joined, inserted)) break;
     }
+    furthest = std::max(furthest, join_borders(faces, tolerance_mm, joined, inserted));
     std::array<char, 80> moved{};
     std::snprintf(moved.data(), moved.size(), "; nothing was moved by more than %.3f mm", furthest);
     same.write(repairs, "borders_welded", "border vertices of the same place were joined");
