@@ -84,9 +84,11 @@ InspectedRegion inspected(const Region& region) {
     };
     InspectedRegion found{region.name, region.positions.size(), region.triangles.size(),
                           surface_area(region), length(region.border)};
-    for (const auto& hole : region.holes)
-        found.holes.push_back(
-            {length(hole), region.position(hole.front()), hole_curvature(region, hole)});
+    const auto curvatures = hole_curvatures(region);
+    for (std::size_t k = 0; k < region.holes.size(); ++k) {
+        const auto& hole = region.holes[k];
+        found.holes.push_back({length(hole), region.position(hole.front()), curvatures[k]});
+    }
     return found;
 }
 

@@ -18,7 +18,7 @@ struct BorderLoop {
 struct InspectedHole {
     double length_mm;
     Vec3 position;     ///< of one of its vertices
-    double curvature;  ///< that it stands for, radians (see `hole_curvature`)
+    double curvature;  ///< that it stands for, radians (see `hole_curvatures`)
 };
 
 struct InspectedRegion {

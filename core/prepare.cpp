@@ -60,13 +60,8 @@ InsertedCurves put_curves(SurfaceMesh& surface, const FlattenOptions& options, b
 /// Holes of broken models are many and small; each seam cuts the whole surface anew.
 constexpr std::size_t most_made_seams = 64;
 
-/// A name that no curve has: seam_1, seam_2, ...
-std::string new_seam_name(const Curves& curves, std::size_t& number) {
-    for (;;) {
-        const std::string name = "seam_" + std::to_string(++number);
-        if (std::none_of(curves.begin(), curves.end(), [&](auto& c) { return c.name == name; }))
-            return name;
-    }
+bool is_in(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 Warning seam_warning(const Region& region, const HoleSeam& seam, const std::string& name) {
@@ -80,32 +75,64 @@ Warning seam_warning(const Region& region, const HoleSeam& seam, const std::stri
             seam.position};
 }
 
-/// Opens one hole of every region that has one to open; whether there was any.
-bool open_holes(SurfaceMesh& surface, FlattenOptions& options, CutSurface& cut,
-                const Progress& progress) {
-    std::vector<SurfaceLine> lines;
-    const std::size_t before = options.cut.seams.size();
-    for (const Region& region : cut.regions) {
-        const bool is_first =
-            std::none_of(region.runs.begin(), region.runs.end(), [&](const CurveRun& run) {
-                const auto& seams = options.cut.seams;
-                return std::find(seams.begin(), seams.end(), run.curve) != seams.end();
-            });
-        for (HoleSeam& seam : seams_of_next_hole(region, options.cut.holes, is_first, progress)) {
-            std::size_t number = lines.size();
-            const std::string name =
-                seam.curve.empty() ? new_seam_name(cut.inserted.curves, number) : seam.curve;
-            cut.warnings.push_back(seam_warning(region, seam, name));
-            options.cut.seams.push_back(name);
-            if (seam.curve.empty())
-                lines.push_back({name, std::move(seam.places), tolerance::geodesic_snap});
+/// Opens holes one after the other: a seam changes the surface on which the next is sought.
+class HoleOpening {
+public:
+    HoleOpening(SurfaceMesh& surface, CutOptions& options, CutSurface& cut)
+        : surface_(surface), options_(options), cut_(cut) {}
+
+    void run(const Progress& progress) {
+        while (open_one_of_each_region(progress)) {
+            if (made_.size() > most_made_seams)
+                throw Error(ErrorCode::region_not_disk,
+                            "more than " + std::to_string(most_made_seams) +
+                                " holes would have to be opened; mend the model, or keep them with "
+                                "\"holes\": \"keep\"")
+                    .at_option({"holes"});
         }
     }
-    if (options.cut.seams.size() == before) return false;
-    cut.inserted = insert_more_curves(surface, std::move(cut.inserted), lines);
-    cut.regions = cut_into_regions(surface, cut.inserted.curves, options.cut);
-    return true;
-}
+
+private:
+    /// Whether any had one to open.
+    bool open_one_of_each_region(const Progress& progress) {
+        std::vector<SurfaceLine> lines;
+        const std::size_t before = options_.seams.size();
+        for (const Region& region : cut_.regions) {
+            const bool is_first =
+                std::none_of(region.runs.begin(), region.runs.end(),
+                             [&](const CurveRun& run) { return is_in(made_, run.curve); });
+            for (HoleSeam& seam : seams_of_next_hole(region, options_.holes, is_first, progress)) {
+                const std::string name = seam.curve.empty() ? new_name() : seam.curve;
+                cut_.warnings.push_back(seam_warning(region, seam, name));
+                made_.push_back(name);
+                if (!is_in(options_.seams, name)) options_.seams.push_back(name);
+                if (seam.curve.empty())
+                    lines.push_back({name, std::move(seam.places), tolerance::geodesic_snap});
+            }
+        }
+        if (options_.seams.size() == before) return false;
+        cut_.inserted = insert_more_curves(surface_, std::move(cut_.inserted), lines);
+        cut_.regions = cut_into_regions(surface_, cut_.inserted.curves, options_);
+        return true;
+    }
+
+    /// A name that no curve has: seam_1, seam_2, ...
+    std::string new_name() {
+        const Curves& curves = cut_.inserted.curves;
+        for (;;) {
+            const std::string name = "seam_" + std::to_string(++number_);
+            if (std::none_of(curves.begin(), curves.end(),
+                             [&](const Curve& curve) { return curve.name == name; }))
+                return name;
+        }
+    }
+
+    SurfaceMesh& surface_;
+    CutOptions& options_;
+    CutSurface& cut_;
+    std::vector<std::string> made_;
+    std::size_t number_ = 0;
+};
 
 }  // namespace
 
@@ -115,14 +142,7 @@ CutSurface cut_surface(SurfaceMesh& surface, FlattenOptions& options, bool found
     cut.inserted = put_curves(surface, options, found);
     cut.regions = cut_into_regions(surface, cut.inserted.curves, options.cut);
     const std::size_t asked = options.cut.seams.size();
-    while (open_holes(surface, options, cut, progress)) {
-        if (options.cut.seams.size() - asked > most_made_seams)
-            throw Error(ErrorCode::region_not_disk,
-                        "more than " + std::to_string(most_made_seams) +
-                            " holes would have to be opened; mend the model, or keep them with "
-                            "\"holes\": \"keep\"")
-                .at_option({"holes"});
-    }
+    HoleOpening(surface, options.cut, cut).run(progress);
     for (std::size_t s = 0; s < options.cut.seams.size(); ++s) {
         options.constraints.push_back(seam(options.cut.seams[s]));
         if (s < asked) options.constraints.back().option = {"seams", std::to_string(s)};

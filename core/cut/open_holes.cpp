@@ -81,8 +81,9 @@ public:
     }
 
     /// `hole`: its place among the border loops.
-    std::vector<HoleSeam> run(std::size_t hole, bool is_first) {
+    std::vector<HoleSeam> run(std::size_t hole, double curvature, bool is_first) {
         hole_ = hole;
+        curvature_ = curvature;
         if (is_first && along_heel()) return std::move(seams_);
         const auto rear = is_first ? rear_vertex(region_, loops_[hole]) : std::nullopt;
         open(rear ? from(*rear) : shortest());
@@ -100,7 +101,7 @@ private:
                               {},
                               length,
                               region_.position(run.vertices[run.vertices.size() / 2]),
-                              hole_curvature(region_, loops_[hole_])});
+                              curvature_});
             return true;
         }
         return false;
@@ -192,7 +193,7 @@ private:
                                    .norm();
         }
         seam.position = place_of(path.points[(begin + end) / 2], region_.positions);
-        seam.curvature = hole_curvature(region_, loops_[hole_]);
+        seam.curvature = curvature_;
         seams_.push_back(std::move(seam));
     }
 
@@ -203,23 +204,31 @@ private:
     mutable DisjointSets joined_;
     const ExactGeodesics geodesics_;
     std::size_t hole_ = 0;
+    double curvature_ = 0.0;
     std::vector<HoleSeam> seams_;
 };
 
 }  // namespace
 
-double hole_curvature(const Region& region, const std::vector<Index>& hole) {
-    std::vector<bool> on_hole(region.positions.size(), false);
-    for (const Index v : hole) on_hole[static_cast<std::size_t>(v)] = true;
-    double turning = std::numbers::pi * static_cast<double>(hole.size());
+std::vector<double> hole_curvatures(const Region& region) {
+    const auto on_border = border_mask(region);
+    std::vector<double> angles(region.positions.size(), 0.0);
     for (const Triangle& t : region.triangles) {
         for (std::size_t i = 0; i < 3; ++i) {
-            if (on_hole[static_cast<std::size_t>(t[i])])
-                turning -= angle_at(region.position(t[i]), region.position(t[(i + 1) % 3]),
-                                    region.position(t[(i + 2) % 3]));
+            const auto v = static_cast<std::size_t>(t[i]);
+            if (on_border[v])
+                angles[v] += angle_at(region.position(t[i]), region.position(t[(i + 1) % 3]),
+                                      region.position(t[(i + 2) % 3]));
         }
     }
-    return 2.0 * std::numbers::pi + turning;
+    std::vector<double> curvatures;
+    for (const auto& hole : region.holes) {
+        double turning = 0.0;
+        for (const Index v : hole)
+            turning += std::numbers::pi - angles[static_cast<std::size_t>(v)];
+        curvatures.push_back(2.0 * std::numbers::pi + turning);
+    }
+    return curvatures;
 }
 
 bool is_slit(const Region& region, const std::vector<Index>& loop) {
@@ -236,16 +245,17 @@ bool is_slit(const Region& region, const std::vector<Index>& loop) {
 std::vector<HoleSeam> seams_of_next_hole(const Region& region, HoleRule rule, bool is_first,
                                          const Progress& progress) {
     if (rule == HoleRule::keep) return {};
+    const auto curvatures = hole_curvatures(region);
     std::size_t longest = 0;  // its place among the border loops; 0: none
     for (std::size_t k = 0; k < region.holes.size(); ++k) {
         const auto& hole = region.holes[k];
-        const bool much = std::abs(hole_curvature(region, hole)) > most_kept_curvature;
+        const bool much = std::abs(curvatures[k]) > most_kept_curvature;
         if (is_slit(region, hole) || !(much || rule == HoleRule::open)) continue;
         if (longest == 0 || length_of(region, hole) > length_of(region, region.holes[longest - 1]))
             longest = k + 1;
     }
     if (longest == 0) return {};
-    return Opener(region, progress).run(longest, is_first);
+    return Opener(region, progress).run(longest, curvatures[longest - 1], is_first);
 }
 
 }  // namespace lastflat

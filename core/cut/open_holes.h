@@ -22,10 +22,10 @@ struct HoleSeam {
     double curvature = 0.0;            ///< that the hole stands for, radians
 };
 
-/// How much a region is curved where it has a hole: the Gaussian curvature, by its integral, of any
-/// surface that would fill it. 0 for a hole in a plane or for a slit in it, a full turn for the end
-/// of a tube, more for the open top of a last. Radians.
-[[nodiscard]] double hole_curvature(const Region& region, const std::vector<Index>& hole);
+/// How much a region is curved where it has its holes: for each the Gaussian curvature, by its
+/// integral, of any surface that would fill it. 0 for a hole in a plane or for a slit in it, a full
+/// turn for the end of a tube, about half of one for the open top of a last. Radians.
+[[nodiscard]] std::vector<double> hole_curvatures(const Region& region);
 
 /// Whether the loop runs along both sides of cuts alone: it has no area, and its sides can close.
 [[nodiscard]] bool is_slit(const Region& region, const std::vector<Index>& loop);

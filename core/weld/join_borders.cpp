@@ -15,8 +15,9 @@ namespace {
 constexpr int most_rounds = 8;
 /// The way along the border between two places that are joined is so many times their distance.
 constexpr double least_detour = 4.0;
-/// A vertex that faces an edge nearer to its end than this share of its length meets that end.
-constexpr double near_end = 0.1;
+/// A vertex that faces an edge nearer to its end than this share of the vertex's own border edges
+/// would make a needle there.
+constexpr double near_end = 0.25;
 
 /// One edge of a border loop, and its first vertex.
 struct Stretch {
@@ -60,7 +61,8 @@ public:
         std::set<Index> taken;
         for (std::size_t s = 0; s < stretches_.size(); ++s) {
             const Index v = vertex(stretches_[s]);
-            if (partners_[s] || taken.count(v) > 0) continue;
+            const bool has_pair = partners_[s] && partners_[*partners_[s]] == s;
+            if (has_pair || taken.count(v) > 0) continue;
             const auto edge = edge_at(s);
             if (!edge) continue;
             taken.insert(v);
@@ -126,6 +128,9 @@ private:
     [[nodiscard]] std::optional<FacedEdge> edge_at(std::size_t s) const {
         const Stretch& own = stretches_[s];
         const Vec3& at = position(own);
+        const Stretch before{own.loop, own.at + loops_[own.loop].size() - 1};
+        const double needle =
+            near_end * std::min((position(before) - at).norm(), (position(next(own)) - at).norm());
         std::optional<FacedEdge> best;
         double least = tolerance_;
         for_near(at, tolerance_, [&](std::size_t other) {
@@ -134,7 +139,8 @@ private:
             const Vec3& from = position(edge);
             const Vec3 way = position(next(edge)) - from;
             const double share = way.dot(at - from) / way.squaredNorm();
-            if (!(share > near_end && share < 1.0 - near_end)) return;
+            const double room = std::min(share, 1.0 - share) * way.norm();
+            if (!(room > needle)) return;
             const double distance = (from + share * way - at).norm();
             if (distance > least || are_neighbours(own, edge, distance) ||
                 are_neighbours(own, next(edge), distance))

@@ -120,6 +120,33 @@ TEST_SUITE("core/constrain/constraint_rows") {
         CHECK(two.chart.minimum.energy > free);
     }
 
+    TEST_CASE("rows that follow from others go, rows that contradict them stay") {
+        const auto row = [](std::vector<Term> terms, double sum) {
+            return ConstraintRow{0, std::move(terms), sum, sum, 1.0, 0};
+        };
+        const auto edge = [](double factor, Index a) {
+            return Term{TermKind::length, factor, a, a + 1};
+        };
+        const std::vector<ConstraintRow> rows{
+            row({edge(1, 0), edge(1, 1)}, 3.0),                            // 0: a + b = 3
+            row({edge(1, 0)}, 1.0),                                        // 1: a = 1
+            row({edge(1, 2), edge(1, 3)}, 3.0),                            // 2: c + d = 3
+            row({edge(1, 0), edge(1, 1), edge(-1, 2), edge(-1, 3)}, 0.0),  // 3: follows from 0, 2
+            row({edge(1, 1)}, 2.0),               // 4: with 1 it makes 0 follow
+            row({edge(1, 1)}, 2.5),               // 5: contradicts 4
+            row({edge(1, 2), edge(1, 3)}, 4.0)};  // 6: contradicts 2
+        const auto of = [&](const std::vector<std::size_t>& chosen) {
+            return distinct_rows(rows, chosen);
+        };
+        using Rows = std::vector<std::size_t>;
+        CHECK(of({0, 2, 3}) == Rows{0, 2});
+        CHECK(of({0, 1, 4}) == Rows{1, 4});
+        CHECK(of({0, 1}) == Rows{0, 1});
+        CHECK(of({3, 0, 1, 2, 4}) == Rows{1, 3, 4});  // 2 then follows from 3
+        CHECK(of({4, 5}) == Rows{4, 5});
+        CHECK(of({2, 6}) == Rows{2, 6});
+    }
+
     TEST_CASE("two threads give the same bits as one") {
         const Region region = test::dome(40, 0.8);
         const std::vector<Constraint> constraints{lock("left"), lock("bottom")};

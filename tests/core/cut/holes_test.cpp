@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <numbers>
 
 #include "core/cut/cut.h"
@@ -7,6 +8,8 @@
 #include "core/cut/seam_stretches.h"
 #include "core/load/load_model.h"
 #include "core/numerics/polygon.h"
+#include "core/parameterize/fill_holes.h"
+#include "core/prepare.h"
 #include "core/weld/weld.h"
 #include "tests/helpers/sheets.h"
 
@@ -106,8 +109,8 @@ TEST_SUITE("core/cut/seam_stretches") {
 TEST_SUITE("core/cut/open_holes") {
     TEST_CASE("a hole in a plane stands for no curvature, the end of a tube for a full turn") {
         const auto flat = cut(ring()), tube = cut(test::tube_obj(12, 2));
-        CHECK(hole_curvature(flat[0], flat[0].holes[0]) == doctest::Approx(0.0));
-        CHECK(hole_curvature(tube[0], tube[0].holes[0]) == doctest::Approx(2 * pi));
+        CHECK(hole_curvatures(flat[0])[0] == doctest::Approx(0.0));
+        CHECK(hole_curvatures(tube[0])[0] == doctest::Approx(2 * pi));
     }
 
     TEST_CASE("a pyramid without its tip stands for the tip's curvature") {
@@ -115,8 +118,7 @@ TEST_SUITE("core/cut/open_holes") {
             cut("v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nv -3 -3 6\nv 3 -3 6\nv 3 3 6\nv -3 3 6\n"
                 "f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
         // Whole, its tip (0, 0, 9) would have four angles between (1, 1, -1) and (-1, 1, -1).
-        CHECK(hole_curvature(regions[0], regions[0].holes[0]) ==
-              doctest::Approx(2 * pi - 4 * std::acos(1.0 / 3.0)));
+        CHECK(hole_curvatures(regions[0])[0] == doctest::Approx(2 * pi - 4 * std::acos(1.0 / 3.0)));
     }
 
     TEST_CASE("a hole in a plane is kept, the end of a tube is opened straight across") {
@@ -167,12 +169,46 @@ TEST_SUITE("core/cut/open_holes") {
         CHECK(second[0].length < opened[0].length);
     }
 
+    TEST_CASE("the hole that is opened first is opened at the heel, whatever else is sewn") {
+        FlattenOptions options;
+        options.weld.unit_mm = 1.0;
+        options.curves = {{"seam_1", {24 + 2, 48 + 2}}};
+        options.cut.seams = {"seam_1"};
+        SurfaceMesh surface = weld(load_model(upper), options.weld);
+        const CutSurface cut = cut_surface(surface, options, false, Progress());
+        REQUIRE(options.cut.seams.size() == 2);
+        CHECK(options.cut.seams[1] == "seam_2");  // another name than the curve's
+        CHECK(cut.inserted.curves.back().vertices.front() == 12);
+        CHECK(cut.warnings.size() == 1);
+    }
+
     TEST_CASE("a heel curve that joins two loops is where the piece is opened") {
         const CurveSource inner{"heel", {25, 49, 73}}, whole{"heel", {1, 25, 49, 73, 97}};
         const auto opened = seams(cut(upper, {whole})[0], HoleRule::automatic);
         REQUIRE(opened.size() == 1);
         CHECK(opened[0].curve == "heel");
         CHECK(seams(cut(upper, {inner})[0], HoleRule::automatic)[0].curve.empty());
+    }
+}
+
+TEST_SUITE("core/parameterize/fill_holes") {
+    TEST_CASE("every hole, also a slit in a plane, is closed by triangles that have an area") {
+        const auto slit =
+            cut(test::sheet_obj(4, 4, test::flat), {{"slit", {6, 7, 8}}}, {{"slit"}, {}});
+        for (const Region& region : {cut(ring())[0], slit[0]}) {
+            const Region disk = with_holes_filled(region);
+            CHECK(disk.positions.size() == region.positions.size() + 1);
+            REQUIRE(disk.triangles.size() == region.triangles.size() + region.holes[0].size());
+            for (const Triangle& t : disk.triangles) {
+                const Vec3 a = disk.position(t[1]) - disk.position(t[0]);
+                const Vec3 b = disk.position(t[2]) - disk.position(t[0]);
+                CHECK(a.cross(b).norm() > 1.0);
+            }
+            Region found = disk;
+            find_border(found);
+            CHECK(found.holes.empty());
+            CHECK(found.border == region.border);
+        }
     }
 }
 
