@@ -222,7 +222,9 @@ FlattenResult flatten(std::string_view model, const FlattenOptions& asked, Progr
     SurfaceMesh surface = read_surface(model, options, result, watch, progress);
 
     progress.reach(Stage::cut, 0.2);
-    const bool by_itself = result.found.has_value() && asked.curves.empty();
+    const Found by_itself = !result.found          ? Found::none
+                            : asked.curves.empty() ? Found::all
+                                                   : Found::some;
     CutSurface cut = cut_surface(surface, options, by_itself, progress);
     append(result.warnings, std::move(cut.warnings));
     result.asked = options.constraints;

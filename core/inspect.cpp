@@ -112,7 +112,9 @@ Inspection inspect(std::string_view model, const FlattenOptions& asked) {
         if (found.landmarks)
             found.warnings.insert(found.warnings.end(), found.landmarks->warnings.begin(),
                                   found.landmarks->warnings.end());
-        const bool by_itself = found.landmarks.has_value() && asked.curves.empty();
+        const Found by_itself = !found.landmarks       ? Found::none
+                                : asked.curves.empty() ? Found::all
+                                                       : Found::some;
         const CutSurface cut = cut_surface(surface, options, by_itself, Progress());
         found.warnings.insert(found.warnings.end(), cut.warnings.begin(), cut.warnings.end());
         for (const Region& region : cut.regions) found.regions.push_back(inspected(region));

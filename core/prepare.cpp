@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/constrain/check_constraints.h"
+#include "core/constrain/constraint_rows.h"
 #include "core/landmarks/bare_last.h"
 #include "core/numerics/tolerances.h"
 
@@ -19,11 +20,13 @@ std::optional<Landmarks> fill_in_landmarks(const SurfaceMesh& surface, FlattenOp
     };
     if (says_something || is_open()) return std::nullopt;
     Landmarks found = find_landmarks(surface);
-    for (const CurveSource& curve : found.curves) {
-        const bool is_own = std::any_of(options.curves.begin(), options.curves.end(),
-                                        [&](const auto& own) { return own.name == curve.name; });
-        if (!is_own) options.curves.push_back(curve);
-    }
+    const auto is_own = [&](const CurveSource& curve) {
+        return std::any_of(options.curves.begin(), options.curves.end(),
+                           [&](const CurveSource& own) { return own.name == curve.name; });
+    };
+    found.curves.erase(std::remove_if(found.curves.begin(), found.curves.end(), is_own),
+                       found.curves.end());
+    options.curves.insert(options.curves.end(), found.curves.begin(), found.curves.end());
     found.cut.holes = options.cut.holes;
     options.cut = found.cut;
     if (options.constraints.empty()) options.constraints = {lock("centre_front"), lock("heel")};
@@ -55,6 +58,14 @@ InsertedCurves put_curves(SurfaceMesh& surface, const FlattenOptions& options, b
         if (found) fail_search(error.what());
         throw;
     }
+}
+
+/// The cuts and regions were found; that they do not fit is due to the curves that were not.
+[[noreturn]] void fail_beside_own(const Error& error) {
+    throw Error(ErrorCode::curve_invalid,
+                std::string("the request's curves do not fit those that were found beside them: ") +
+                    error.what())
+        .at_option({"curves"});
 }
 
 /// Holes of broken models are many and small; each seam cuts the whole surface anew.
@@ -136,11 +147,16 @@ private:
 
 }  // namespace
 
-CutSurface cut_surface(SurfaceMesh& surface, FlattenOptions& options, bool found,
+CutSurface cut_surface(SurfaceMesh& surface, FlattenOptions& options, Found found,
                        const Progress& progress) {
     CutSurface cut;
-    cut.inserted = put_curves(surface, options, found);
-    cut.regions = cut_into_regions(surface, cut.inserted.curves, options.cut);
+    cut.inserted = put_curves(surface, options, found == Found::all);
+    try {
+        cut.regions = cut_into_regions(surface, cut.inserted.curves, options.cut);
+    } catch (const Error& error) {
+        if (found == Found::some) fail_beside_own(error);
+        throw;
+    }
     const std::size_t asked = options.cut.seams.size();
     HoleOpening(surface, options.cut, cut).run(progress);
     for (std::size_t s = 0; s < options.cut.seams.size(); ++s) {
@@ -148,6 +164,7 @@ CutSurface cut_surface(SurfaceMesh& surface, FlattenOptions& options, bool found
         if (s < asked) options.constraints.back().option = {"seams", std::to_string(s)};
     }
     check_constraints(options.constraints, cut.inserted.curves, cut.regions);
+    (void)coupled_regions(cut.regions, options.constraints);
     check_zones(options.weights.zones, cut.inserted.curves, cut.regions);
     warn_of_absent_curves(cut.inserted.curves, cut.regions, cut.warnings);
     return cut;

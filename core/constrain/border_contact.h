@@ -12,8 +12,10 @@ struct ContactPair {
 };
 
 /// Keeps every border loop from crossing itself. That is enough: how often a map without flips
-/// covers a point is the sum of the loops' winding numbers around it, which for simple loops is 0
-/// or 1; so no point is covered twice and no loop meets another. Border vertices that come nearer
+/// covers a point is the sum of the loops' winding numbers around it. A simple outer loop winds
+/// around its inside once, and a simple hole once the other way, as it did at the start, since to
+/// turn round it would have to cross itself. So no point is covered twice, and no loop meets
+/// another. Border vertices that come nearer
 /// to an edge of their loop than the pair's clearance are pushed away by a pressure that grows
 /// without bound, and no step goes through an edge. What stays apart feels nothing: the clearance
 /// is a hundredth of the mean border edge, but never more than a quarter of the way between both

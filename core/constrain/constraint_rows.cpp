@@ -267,7 +267,10 @@ std::vector<std::pair<std::size_t, std::size_t>> coupled_by(
     } else if (constraint.kind == ConstraintKind::seam) {
         for (const SeamStretch& both : seam_stretches(regions, constraint.curve))
             couples.emplace_back(both.a.region, both.b.region);
-        if (couples.empty()) refuse("the regions lie on one side of it at most");
+        if (couples.empty())
+            refuse(
+                "nowhere do the regions lie on both sides of it (the border has one, and a slit of "
+                "one edge does not open)");
     }
     return couples;
 }

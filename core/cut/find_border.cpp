@@ -58,6 +58,21 @@ double spanned_area(const Region& region, const std::vector<Index>& loop) {
     return sum.norm();
 }
 
+std::size_t outer_loop(const Region& region, const std::vector<std::vector<Index>>& loops) {
+    constexpr double alike = 0.01;
+    const auto turnings = loop_turnings(region, loops);
+    const double most = *std::max_element(turnings.begin(), turnings.end());
+    std::size_t best = 0;
+    double largest = -1.0;
+    for (std::size_t k = 0; k < loops.size(); ++k) {
+        const double area = turnings[k] < most - alike ? -1.0 : spanned_area(region, loops[k]);
+        if (area <= largest) continue;
+        largest = area;
+        best = k;
+    }
+    return best;
+}
+
 [[noreturn]] void fail(const Region& region, const std::string& what) {
     throw Error(ErrorCode::region_not_disk, "region '" + region.name + "' is not a disk: " + what)
         .at_option({"regions", region.name})
@@ -85,9 +100,7 @@ void find_border(Region& region) {
         fail(region, "genus " + std::to_string(genus) + ", " + std::to_string(loops.size()) +
                          " border loop(s)" + loop_places(region, loops) + "; cut its handles open");
     }
-    const auto outer = std::max_element(loops.begin(), loops.end(), [&](auto& a, auto& b) {
-        return spanned_area(region, a) < spanned_area(region, b);
-    });
+    const auto outer = loops.begin() + static_cast<std::ptrdiff_t>(outer_loop(region, loops));
     region.border = std::move(*outer);
     loops.erase(outer);
     region.holes = std::move(loops);

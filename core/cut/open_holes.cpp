@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/cut/edge_paths.h"
 #include "core/geodesic/trace_path.h"
 #include "core/numerics/disjoint_sets.h"
 #include "core/numerics/polygon.h"
@@ -19,9 +20,6 @@ constexpr double most_kept_curvature = std::numbers::pi / 2;
 /// A piece is long if its border reaches this many times as far along as across, and its hole near
 /// an end if it is off the middle by this share of the length.
 constexpr double long_from = 1.5, off_middle = 0.05;
-
-/// From so many vertices of a hole the shortest way is sought.
-constexpr std::size_t most_starts = 4;
 
 constexpr const char* heel = "heel";
 
@@ -72,28 +70,29 @@ public:
           progress_(progress),
           loops_(border_loops(region)),
           loop_of_(region.positions.size(), -1),
-          joined_(loops_.size()),
-          geodesics_(region) {
+          joined_(loops_.size()) {
         for (std::size_t k = 0; k < loops_.size(); ++k) {
             for (const Index v : loops_[k])
                 loop_of_[static_cast<std::size_t>(v)] = static_cast<Index>(k);
         }
     }
 
-    /// `hole`: its place among the border loops.
-    std::vector<HoleSeam> run(std::size_t hole, double curvature, bool is_first) {
+    /// `hole`: its place among the border loops; `at_end`: where a last has its heel.
+    std::vector<HoleSeam> run(std::size_t hole, double curvature, bool at_end) {
         hole_ = hole;
         curvature_ = curvature;
-        if (is_first && along_heel()) return std::move(seams_);
-        const auto rear = is_first ? rear_vertex(region_, loops_[hole]) : std::nullopt;
-        open(rear ? from(*rear) : shortest());
+        if (at_end && along_heel()) return std::move(seams_);
+        const auto rear = at_end ? rear_vertex(region_, loops_[hole]) : std::nullopt;
+        open(shortest(rear ? std::vector{*rear} : loops_[0]));
         return std::move(seams_);
     }
 
 private:
     bool along_heel() {
         for (const CurveRun& run : region_.runs) {
-            if (run.curve != heel || !join(run.vertices.front(), run.vertices.back())) continue;
+            const Index from = run.vertices.front(), to = run.vertices.back();
+            const bool fits = (on_hole(from) && on_outer(to)) || (on_hole(to) && on_outer(from));
+            if (run.curve != heel || !fits || !join(from, to)) continue;
             double length = 0.0;
             for (std::size_t i = 1; i < run.vertices.size(); ++i)
                 length += region_.distance(run.vertices[i - 1], run.vertices[i]);
@@ -117,55 +116,67 @@ private:
     }
 
     [[nodiscard]] bool on_outer(Index v) const {
-        const Index loop = loop_of_[static_cast<std::size_t>(v)];
-        return loop >= 0 && joined_.find(loop) == joined_.find(0);
+        return loop_of_[static_cast<std::size_t>(v)] == 0;
     }
     [[nodiscard]] bool on_hole(Index v) const {
         return loop_of_[static_cast<std::size_t>(v)] == static_cast<Index>(hole_);
     }
 
-    template <class Choice>
-    [[nodiscard]] Index nearest(const GeodesicDistances& distances, const Choice& choice) const {
-        Index best = -1;
-        for (Index v = 0; v < static_cast<Index>(region_.positions.size()); ++v) {
-            if (!choice(v)) continue;
-            if (best < 0 || distances.distance[static_cast<std::size_t>(v)] <
-                                distances.distance[static_cast<std::size_t>(best)])
-                best = v;
+    /// From any of these vertices to the hole: along edges first, then straight across the faces
+    /// around that way. Where straight paths cannot be found (`ExactGeodesics`) the edges are it.
+    [[nodiscard]] GeodesicPath shortest(const std::vector<Index>& from) const {
+        const EdgePaths paths(region_, from);
+        const Index end = paths.nearest([&](Index v) { return on_hole(v); });
+        const std::vector<Index> edges = paths.to(end);
+        constexpr double room = 1.5;
+        const EdgePaths near(region_, {edges.front()}, room * paths.distance(end));
+        try {
+            return straightened(near, edges);
+        } catch (const Error& error) {
+            if (error.code() != ErrorCode::solver_failed) throw;
         }
-        return best;
+        GeodesicPath path;
+        for (const Index v : edges) path.points.push_back({v, v, 0.0});
+        return path;
     }
 
-    [[nodiscard]] GeodesicPath from(Index start) const {
-        const auto distances = geodesics_.from_vertex(start, progress_);
-        return trace_path(geodesics_.half_edges(), distances,
-                          nearest(distances, [&](Index v) { return on_hole(v); }));
-    }
-
-    /// The best of a few ways out of the hole, then to and fro between the loops until it gets no
-    /// shorter.
-    [[nodiscard]] GeodesicPath shortest() const {
-        const auto out = [&](Index v) { return on_outer(v); };
-        const auto& hole = loops_[hole_];
-        const std::size_t starts = std::min(most_starts, hole.size());
-        GeodesicDistances distances;
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t k = 0; k < starts; ++k) {
-            auto tried = geodesics_.from_vertex(hole[k * hole.size() / starts], progress_);
-            const double distance = tried.distance[static_cast<std::size_t>(nearest(tried, out))];
-            if (distance >= least) continue;
-            least = distance;
-            distances = std::move(tried);
+    /// The shortest path from the first vertex to the hole on the triangles around what `near` has
+    /// reached.
+    [[nodiscard]] GeodesicPath straightened(const EdgePaths& near,
+                                            const std::vector<Index>& edges) const {
+        Triangulation part;
+        std::vector<Index> place(region_.positions.size(), -1), source;
+        for (const Triangle& t : region_.triangles) {
+            if (std::none_of(t.begin(), t.end(), [&](Index v) { return near.reaches(v); }))
+                continue;
+            Triangle renamed{};
+            for (std::size_t i = 0; i < 3; ++i) {
+                Index& v = place[static_cast<std::size_t>(t[i])];
+                if (v < 0) {
+                    v = static_cast<Index>(source.size());
+                    source.push_back(t[i]);
+                    part.positions.push_back(region_.position(t[i]));
+                }
+                renamed[i] = v;
+            }
+            part.triangles.push_back(renamed);
         }
-        least = std::numeric_limits<double>::infinity();
-        for (bool from_hole = true;; from_hole = !from_hole) {
-            const Index end =
-                nearest(distances, [&](Index v) { return from_hole ? on_outer(v) : on_hole(v); });
-            const double distance = distances.distance[static_cast<std::size_t>(end)];
-            if (!(distance < least)) return trace_path(geodesics_.half_edges(), distances, end);
-            least = distance;
-            distances = geodesics_.from_vertex(end, progress_);
+        const ExactGeodesics geodesics(part);
+        const auto distances =
+            geodesics.from_vertex(place[static_cast<std::size_t>(edges.front())], progress_);
+        Index end = place[static_cast<std::size_t>(edges.back())];
+        for (Index v = 0; v < static_cast<Index>(source.size()); ++v) {
+            if (on_hole(source[static_cast<std::size_t>(v)]) &&
+                distances.distance[static_cast<std::size_t>(v)] <
+                    distances.distance[static_cast<std::size_t>(end)])
+                end = v;
         }
+        GeodesicPath path = trace_path(geodesics.half_edges(), distances, end);
+        for (PathPoint& point : path.points) {
+            point.a = source[static_cast<std::size_t>(point.a)];
+            point.b = source[static_cast<std::size_t>(point.b)];
+        }
+        return path;
     }
 
     /// A path may touch other loops on its way: only its parts that join what was apart are cut.
@@ -202,7 +213,6 @@ private:
     const std::vector<std::vector<Index>> loops_;
     std::vector<Index> loop_of_;  ///< per vertex; -1: inside
     mutable DisjointSets joined_;
-    const ExactGeodesics geodesics_;
     std::size_t hole_ = 0;
     double curvature_ = 0.0;
     std::vector<HoleSeam> seams_;
@@ -211,23 +221,8 @@ private:
 }  // namespace
 
 std::vector<double> hole_curvatures(const Region& region) {
-    const auto on_border = border_mask(region);
-    std::vector<double> angles(region.positions.size(), 0.0);
-    for (const Triangle& t : region.triangles) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto v = static_cast<std::size_t>(t[i]);
-            if (on_border[v])
-                angles[v] += angle_at(region.position(t[i]), region.position(t[(i + 1) % 3]),
-                                      region.position(t[(i + 2) % 3]));
-        }
-    }
-    std::vector<double> curvatures;
-    for (const auto& hole : region.holes) {
-        double turning = 0.0;
-        for (const Index v : hole)
-            turning += std::numbers::pi - angles[static_cast<std::size_t>(v)];
-        curvatures.push_back(2.0 * std::numbers::pi + turning);
-    }
+    std::vector<double> curvatures = loop_turnings(region, region.holes);
+    for (double& curvature : curvatures) curvature += 2.0 * std::numbers::pi;
     return curvatures;
 }
 
@@ -246,16 +241,17 @@ std::vector<HoleSeam> seams_of_next_hole(const Region& region, HoleRule rule, bo
                                          const Progress& progress) {
     if (rule == HoleRule::keep) return {};
     const auto curvatures = hole_curvatures(region);
+    const auto is_much = [](double curvature) { return std::abs(curvature) > most_kept_curvature; };
     std::size_t longest = 0;  // its place among the border loops; 0: none
     for (std::size_t k = 0; k < region.holes.size(); ++k) {
         const auto& hole = region.holes[k];
-        const bool much = std::abs(curvatures[k]) > most_kept_curvature;
-        if (is_slit(region, hole) || !(much || rule == HoleRule::open)) continue;
+        if (is_slit(region, hole) || !(is_much(curvatures[k]) || rule == HoleRule::open)) continue;
         if (longest == 0 || length_of(region, hole) > length_of(region, region.holes[longest - 1]))
             longest = k + 1;
     }
     if (longest == 0) return {};
-    return Opener(region, progress).run(longest, curvatures[longest - 1], is_first);
+    const double curvature = curvatures[longest - 1];
+    return Opener(region, progress).run(longest, curvature, is_first && is_much(curvature));
 }
 
 }  // namespace lastflat

@@ -34,12 +34,12 @@ struct HoleSeam {
 /// end, where the way touches other loops; none: every hole is kept. Automatic: a hole is opened
 /// if it stands for more than a quarter turn, either way. A slit never is.
 ///
-/// The first hole of a piece is opened along the curve `heel` if that joins two loops; else, if the
-/// piece is long and the hole nearer to one end, as the top of a last is to its heel, by the
-/// shortest path from the outermost vertex there; any other by a shortest path: between its ends,
-/// from either of them to the other's loop, and of those that begin at a few places of the hole.
+/// The first such hole of a piece is opened along the curve `heel` if that joins it to the outer
+/// loop; else, if the piece is long and the hole nearer to one end, as the top of a last is to its
+/// heel, by the shortest path from the outermost vertex there. Any other hole is opened by the
+/// shortest path from that vertex of the outer loop that is nearest along edges.
 ///
-/// Throws: Error{solver_failed, cancelled} of the shortest paths.
+/// Throws: Error{cancelled}.
 [[nodiscard]] std::vector<HoleSeam> seams_of_next_hole(const Region& region, HoleRule rule,
                                                        bool is_first, const Progress& progress);
 

@@ -1,6 +1,9 @@
 #include "core/cut/region.h"
 
 #include <Eigen/Geometry>
+#include <numbers>
+
+#include "core/numerics/polygon.h"
 
 namespace lastflat {
 
@@ -27,6 +30,27 @@ std::vector<double> loop_lengths(const Region& region, const std::vector<Index>&
 
 std::vector<double> border_lengths(const Region& region) {
     return loop_lengths(region, region.border);
+}
+
+std::vector<double> loop_turnings(const Region& region,
+                                  const std::vector<std::vector<Index>>& loops) {
+    std::vector<Index> loop_of(region.positions.size(), -1);
+    std::vector<double> turnings;
+    for (const auto& loop : loops) {
+        for (const Index v : loop)
+            loop_of[static_cast<std::size_t>(v)] = static_cast<Index>(turnings.size());
+        turnings.push_back(std::numbers::pi * static_cast<double>(loop.size()));
+    }
+    for (const Triangle& t : region.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Index loop = loop_of[static_cast<std::size_t>(t[i])];
+            if (loop >= 0)
+                turnings[static_cast<std::size_t>(loop)] -=
+                    angle_at(region.position(t[i]), region.position(t[(i + 1) % 3]),
+                             region.position(t[(i + 2) % 3]));
+        }
+    }
+    return turnings;
 }
 
 Vec3 area_vector(const Region& region) {

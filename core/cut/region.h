@@ -43,6 +43,12 @@ struct Region : Triangulation {
 /// Of the outer loop.
 [[nodiscard]] std::vector<double> border_lengths(const Region& region);
 
+/// For each of the region's border loops how far its line turns left on the surface: the sum of pi
+/// less the surface's angle over its vertices. A full turn around a flat piece, minus a full turn
+/// around a hole in it, nothing around the end of a tube. Radians.
+[[nodiscard]] std::vector<double> loop_turnings(const Region& region,
+                                                const std::vector<std::vector<Index>>& loops);
+
 /// The mean normal times the area, mm^2.
 [[nodiscard]] Vec3 area_vector(const Region& region);
 

@@ -58,7 +58,7 @@ LastFrame standing(const std::vector<BareFace>& faces, const Vec3& mean, const V
 
 void fail_search(const std::string& why) {
     throw Error(ErrorCode::region_invalid,
-                "the request names no curves, and they cannot be found: " + why +
+                "the request does not say how the last is cut, and that cannot be found: " + why +
                     "; name the curves, cuts and regions")
         .at_option({"curves"});
 }

@@ -44,10 +44,18 @@ Points2 flat_loop(const std::vector<Index>& loop, const Points2& uv) {
 
 std::vector<BorderCrossing> border_crossings(const Region& region, const Points2& uv) {
     std::vector<BorderCrossing> crossings;
-    for (const auto& loop : border_loops(region)) {
-        for (const Crossing& found : self_crossings(flat_loop(loop, uv)))
-            crossings.push_back({region.position(loop[static_cast<std::size_t>(found.a)]),
-                                 region.position(loop[static_cast<std::size_t>(found.b)])});
+    const auto loops = border_loops(region);
+    for (const auto& loop : loops) {
+        const Points2 line = flat_loop(loop, uv);
+        const auto place = [&](Index i) {
+            return region.position(loop[static_cast<std::size_t>(i)]);
+        };
+        const auto found = self_crossings(line);
+        for (const Crossing& crossing : found)
+            crossings.push_back({place(crossing.a), place(crossing.b)});
+        const bool is_hole = &loop != &loops.front();
+        if (found.empty() && (signed_area(line) > 0.0) == is_hole)
+            crossings.push_back({place(0), place(static_cast<Index>(loop.size() / 2))});
     }
     return crossings;
 }

@@ -20,12 +20,15 @@ struct Chart {
 /// A loop in the plane, in its order.
 [[nodiscard]] Points2 flat_loop(const std::vector<Index>& loop, const Points2& uv);
 
-/// Where a border loop crosses itself in the plane: two places on the last.
+/// Where a border loop crosses itself in the plane, or has its sides over each other: two places on
+/// the last.
 struct BorderCrossing {
     Vec3 a, b;
 };
 
-/// All crossings of the outer loop and of every hole, each with itself (see `BorderContact`).
+/// All crossings of the outer loop and of every hole, each with itself (see `BorderContact`), and
+/// every loop that crosses nowhere but runs around the other way than it must: a slit whose sides
+/// have changed places.
 [[nodiscard]] std::vector<BorderCrossing> border_crossings(const Region& region, const Points2& uv);
 
 /// Flat area, mm^2, triangles counted with their sign.

@@ -180,7 +180,7 @@ TEST_SUITE("core/holes and seams") {
         const auto edge = with({{"edge", {0, 1, 2}}}, {{}, {}, {"edge"}});
         CHECK_THROWS_WITH_AS(
             (void)lastflat::flatten(test::sheet_obj(4, 4, test::flat), edge, progress),
-            doctest::Contains("one side of it at most"), Error);
+            doctest::Contains("both sides of it"), Error);
         const auto nothing = with({}, {{}, {}, {"dart"}});
         CHECK_THROWS_WITH_AS(
             (void)lastflat::flatten(test::sheet_obj(4, 4, test::flat), nothing, progress),
@@ -198,6 +198,44 @@ TEST_SUITE("core/holes and seams") {
         CHECK_THROWS_WITH_AS((void)lastflat::flatten(test::sheet_obj(4, 4, test::flat),
                                                      with({inside}, {}), progress),
                              doctest::Contains("vertex 12 is not on the border"), Error);
+    }
+
+    TEST_CASE("the outline is the outer border, however little area it spans") {
+        // A tube cut open has an outline whose two long sides lie on each other; the hole's does
+        // not.
+        FlattenOptions options = with({{"heel", {0, 16, 32, 48, 64, 80}}}, {{"heel"}, {}});
+        options.cut.holes = HoleRule::keep;
+        std::string tube = test::tube_obj(16, 5, [](double angle, int j) {
+            return Vec3(20 * std::cos(angle), 20 * std::sin(angle), 12.0 * j);
+        });
+        const std::size_t face = tube.find("f 41 42 ");  // a cell in the middle, opposite the cut
+        REQUIRE(face != std::string::npos);
+        tube.erase(face, tube.find('\n', face) + 1 - face);
+        const auto result = flatten(tube, options);
+        CHECK(*result.regions[0].energy == doctest::Approx(1.0).epsilon(1e-9));
+        CHECK(signed_area(result.regions[0].outline.points) > 7000.0);
+        CHECK(result.regions[0].outline.holes.at(0).points.size() == 4);
+    }
+
+    TEST_CASE("a slit whose sides have changed places is told, by methods that let them") {
+        const auto bump = [](int i, int j) {
+            const double x = i - 4.0, y = j - 4.0;
+            return Vec3(10.0 * i, 10.0 * j, 25.0 * std::exp(-0.2 * (x * x + y * y)));
+        };
+        int told = 0;
+        for (const MethodName method : {MethodName::mips, MethodName::green_lagrange}) {
+            FlattenOptions options = with({{"slit", {31, 40, 49}}}, {{"slit"}, {}});
+            options.method.name = method;
+            options.weld.unit_mm = 1.0;
+            Progress progress;
+            const auto result = lastflat::flatten(test::sheet_obj(8, 8, bump), options, progress);
+            const FlatRegion& flat = result.regions[0];
+            const bool reversed = signed_area(flat.outline.holes.at(0).points) > 0.0;
+            CHECK(reversed == (flat.metrics.border_crossings > 0));
+            CHECK(reversed == (result.warnings.size() == 1));
+            told += reversed;
+        }
+        CHECK(told > 0);
     }
 
     TEST_CASE("one and two threads give the same bits") {

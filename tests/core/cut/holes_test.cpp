@@ -172,10 +172,10 @@ TEST_SUITE("core/cut/open_holes") {
     TEST_CASE("the hole that is opened first is opened at the heel, whatever else is sewn") {
         FlattenOptions options;
         options.weld.unit_mm = 1.0;
-        options.curves = {{"seam_1", {24 + 2, 48 + 2}}};
+        options.curves = {{"seam_1", {24 + 2, 48 + 2, 72 + 2}}};
         options.cut.seams = {"seam_1"};
         SurfaceMesh surface = weld(load_model(upper), options.weld);
-        const CutSurface cut = cut_surface(surface, options, false, Progress());
+        const CutSurface cut = cut_surface(surface, options, Found::none, Progress());
         REQUIRE(options.cut.seams.size() == 2);
         CHECK(options.cut.seams[1] == "seam_2");  // another name than the curve's
         CHECK(cut.inserted.curves.back().vertices.front() == 12);
@@ -183,7 +183,7 @@ TEST_SUITE("core/cut/open_holes") {
     }
 
     TEST_CASE("a heel curve that joins two loops is where the piece is opened") {
-        const CurveSource inner{"heel", {25, 49, 73}}, whole{"heel", {1, 25, 49, 73, 97}};
+        const CurveSource inner{"heel", {1, 25, 49, 73}}, whole{"heel", {1, 25, 49, 73, 97}};
         const auto opened = seams(cut(upper, {whole})[0], HoleRule::automatic);
         REQUIRE(opened.size() == 1);
         CHECK(opened[0].curve == "heel");
