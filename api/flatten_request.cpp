@@ -9,8 +9,6 @@
 namespace lastflat::api {
 namespace {
 
-constexpr double far_away = 1e6;  // mm: no last is a kilometre long
-
 std::vector<std::string> read_names(const Field& field, const RequestLimits& limits) {
     std::vector<std::string> names;
     for (const Field& item : field.items(limits.list))

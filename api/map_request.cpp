@@ -6,8 +6,7 @@
 namespace lastflat::api {
 namespace {
 
-constexpr double far_away = 1e6;
-constexpr int depth = 8;
+constexpr int deepest = 8;
 
 template <std::size_t dimensions>
 std::array<double, dimensions> read_point(const Field& field, std::size_t& left) {
@@ -46,7 +45,7 @@ Drawing<dimensions> read_drawing(const Field& field, std::size_t& left) {
 }  // namespace
 
 MapRequest map_request_from_json(std::string_view text) {
-    const auto json = parse_json(text, depth);
+    const auto json = parse_json(text, deepest);
     ObjectReader reader({json, ""});
     MapRequest request;
     std::size_t left = most_mapped_points;

@@ -5,8 +5,6 @@
 
 namespace lastflat::api {
 
-using Json = nlohmann::json;
-
 namespace {
 
 /// A value takes sixteen bytes of memory and may take two of text.
@@ -14,21 +12,21 @@ constexpr std::size_t most_values = 4'000'000;
 
 }  // namespace
 
-Json parse_json(std::string_view text, int depth) {
+nlohmann::json parse_json(std::string_view text, int depth) {
     std::vector<std::set<std::string>> names;  // of the objects that are open
     std::size_t values = 0;
-    const auto watch = [&](int level, Json::parse_event_t event, Json& parsed) {
+    const auto watch = [&](int level, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
         if (level > depth) {
             throw InvalidRequest(
                 "", "the JSON is nested deeper than " + std::to_string(depth) + " levels");
         }
-        if (event == Json::parse_event_t::value && ++values > most_values) {
+        if (event == nlohmann::json::parse_event_t::value && ++values > most_values) {
             throw InvalidRequest(
                 "", "the JSON has more than " + std::to_string(most_values) + " values");
         }
-        if (event == Json::parse_event_t::object_start) names.emplace_back();
-        if (event == Json::parse_event_t::object_end) names.pop_back();
-        if (event == Json::parse_event_t::key &&
+        if (event == nlohmann::json::parse_event_t::object_start) names.emplace_back();
+        if (event == nlohmann::json::parse_event_t::object_end) names.pop_back();
+        if (event == nlohmann::json::parse_event_t::key &&
             !names.back().insert(parsed.get<std::string>()).second) {
             throw InvalidRequest("", "the name '" + parsed.get<std::string>().substr(0, 80) +
                                          "' stands twice in one object");
@@ -36,8 +34,8 @@ Json parse_json(std::string_view text, int depth) {
         return true;
     };
     try {
-        return Json::parse(text.begin(), text.end(), watch);
-    } catch (const Json::exception& error) {
+        return nlohmann::json::parse(text.begin(), text.end(), watch);
+    } catch (const nlohmann::json::exception& error) {
         std::string what =
             error.what();  // "[json.exception.parse_error.101] parse error at line ..."
         if (const auto end = what.find("] "); end != std::string::npos) what.erase(0, end + 2);
@@ -77,7 +75,8 @@ double Field::number(double least, double most) const {
     if (!value.is_number()) fail("must be a number");
     const auto number = value.get<double>();
     if (!(number >= least && number <= most)) {
-        fail("must lie between " + Json(least).dump() + " and " + Json(most).dump());
+        fail("must lie between " + nlohmann::json(least).dump() + " and " +
+             nlohmann::json(most).dump());
     }
     return number;
 }
@@ -108,7 +107,7 @@ std::vector<std::pair<std::string, Field>> Field::entries(std::size_t most) cons
     if (value.size() > most) fail("must have at most " + std::to_string(most) + " entries");
     std::vector<std::pair<std::string, Field>> fields;
     for (const auto& [name, member] : value.items()) {
-        const Json as_value = name;
+        const nlohmann::json as_value = name;
         const Field checked{as_value, step(pointer, name)};
         fields.emplace_back(checked.text(128), Field{member, step(pointer, name)});
     }

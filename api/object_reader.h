@@ -10,6 +10,9 @@
 
 namespace lastflat::api {
 
+/// mm; no last is a kilometre long.
+constexpr double far_away = 1e6;
+
 /// The request breaks the contract. `pointer` (RFC 6901) names the field; empty: the whole
 /// document.
 class InvalidRequest : public std::runtime_error {

@@ -22,10 +22,6 @@ constexpr double stiffness = 0.1;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-Vec2 point(const Eigen::VectorXd& x, Index v) {
-    return x.segment<2>(2 * v);
-}
-
 /// A distance with its derivatives by (a, b, p).
 struct Distance {
     double value;

@@ -13,10 +13,6 @@
 namespace lastflat {
 namespace {
 
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
-
 std::vector<Index> vertices_of(const ConstraintRow& row) {
     std::vector<Index> vertices;
     for (const Term& term : row.terms) {

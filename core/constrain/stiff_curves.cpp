@@ -15,10 +15,6 @@ constexpr double stiffness_share = 1.5e-6;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-Vec2 point(const Eigen::VectorXd& x, Index v) {
-    return x.segment<2>(2 * v);
-}
-
 /// Angles on the surface, by the directed edge that a corner's triangle begins with.
 class Corners {
 public:

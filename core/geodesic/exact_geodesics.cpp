@@ -118,7 +118,6 @@ public:
 
 private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
-    static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
     static double median_length(const HalfEdges& half_edges) {
         std::vector<double> lengths;

@@ -12,7 +12,8 @@
 namespace lastflat {
 namespace {
 
-[[noreturn]] void fail(const std::string& what, ErrorCode code = ErrorCode::unreadable_model) {
+[[noreturn]] void fail_draco(const std::string& what,
+                             ErrorCode code = ErrorCode::unreadable_model) {
     throw Error(code, "glTF: the Draco data " + what);
 }
 
@@ -23,23 +24,24 @@ DracoTriangles decode_draco(std::string_view bytes, int attribute, const LoadLim
     buffer.Init(bytes.data(), bytes.size());
     draco::Decoder decoder;
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-    if (!decoded.ok()) fail("cannot be decoded: " + decoded.status().error_msg_string());
+    if (!decoded.ok()) fail_draco("cannot be decoded: " + decoded.status().error_msg_string());
     const auto& mesh = *decoded.value();
     if (mesh.num_points() > limits.vertices || mesh.num_faces() > limits.triangles)
-        fail("holds more vertices or triangles than are read", ErrorCode::model_too_large);
+        fail_draco("holds more vertices or triangles than are read", ErrorCode::model_too_large);
     const auto* places = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(attribute));
     if (attribute < 0 || places == nullptr || places->num_components() != 3)
-        fail("has no positions under the id that the primitive names");
+        fail_draco("has no positions under the id that the primitive names");
     DracoTriangles triangles;
     for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
         std::array<float, 3> place{};
         if (!places->ConvertValue<float, 3>(places->mapped_index(point), place.data()))
-            fail("has positions that are no numbers");
+            fail_draco("has positions that are no numbers");
         triangles.positions.emplace_back(place[0], place[1], place[2]);
     }
     for (draco::FaceIndex face(0); face < mesh.num_faces(); ++face) {
         for (const draco::PointIndex& corner : mesh.face(face)) {
-            if (corner.value() >= mesh.num_points()) fail("names a vertex that it does not have");
+            if (corner.value() >= mesh.num_points())
+                fail_draco("names a vertex that it does not have");
             triangles.corners.push_back(static_cast<Index>(corner.value()));
         }
     }

@@ -30,7 +30,7 @@ double read_component(const char* at, int type, bool normalized) {
             return component<std::uint16_t>(at, normalized);
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return component<std::uint32_t>(at, false);
         case TINYGLTF_COMPONENT_TYPE_FLOAT: return component<float>(at, false);
-        default: fail("component type " + std::to_string(type) + " is not read");
+        default: fail_gltf("component type " + std::to_string(type) + " is not read");
     }
 }
 
@@ -46,7 +46,7 @@ std::string_view window(const tinygltf::Model& model, int buffer_view, std::size
     const std::string_view view = bytes_of(model, buffer_view);
     const bool fits = offset <= view.size() && size <= view.size() - offset && stride >= size &&
                       count - 1 <= (view.size() - offset - size) / stride;
-    if (!fits) fail(name + " reaches past the end of its buffer");
+    if (!fits) fail_gltf(name + " reaches past the end of its buffer");
     return view.substr(offset, (count - 1) * stride + size);
 }
 
@@ -56,9 +56,9 @@ std::string replaced(const tinygltf::Model& model, const tinygltf::Accessor& acc
     const auto& sparse = accessor.sparse;
     if (sparse.count <= 0) return values;
     const auto count = static_cast<std::size_t>(sparse.count);
-    if (count > accessor.count) fail(name + " replaces more elements than it has");
+    if (count > accessor.count) fail_gltf(name + " replaces more elements than it has");
     const std::size_t index_size = component_bytes(sparse.indices.componentType);
-    if (index_size == 0) fail(name + " has indices of an unknown type");
+    if (index_size == 0) fail_gltf(name + " has indices of an unknown type");
     const auto offset = [](auto bytes) { return static_cast<std::size_t>(bytes); };
     const auto indices = window(model, sparse.indices.bufferView, offset(sparse.indices.byteOffset),
                                 count, index_size, index_size, name);
@@ -68,7 +68,7 @@ std::string replaced(const tinygltf::Model& model, const tinygltf::Accessor& acc
         const double index =
             read_component(indices.data() + i * index_size, sparse.indices.componentType, false);
         if (!(index >= 0.0) || index >= static_cast<double>(accessor.count))
-            fail(name + " replaces an element that it does not have");
+            fail_gltf(name + " replaces an element that it does not have");
         std::memcpy(values.data() + static_cast<std::size_t>(index) * size, with.data() + i * size,
                     size);
     }
@@ -77,7 +77,7 @@ std::string replaced(const tinygltf::Model& model, const tinygltf::Accessor& acc
 
 }  // namespace
 
-void fail(const std::string& what, ErrorCode code) {
+void fail_gltf(const std::string& what, ErrorCode code) {
     throw Error(code, "glTF: " + what);
 }
 
@@ -85,7 +85,8 @@ std::string_view bytes_of(const tinygltf::Model& model, int buffer_view) {
     const auto& view = item(model.bufferViews, buffer_view, "bufferView");
     const auto& data = item(model.buffers, view.buffer, "buffer").data;
     if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
-        fail("bufferView " + std::to_string(buffer_view) + " reaches past the end of its buffer");
+        fail_gltf("bufferView " + std::to_string(buffer_view) +
+                  " reaches past the end of its buffer");
     return {reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength};
 }
 
@@ -98,16 +99,16 @@ double Elements::at(std::size_t element, std::size_t i) const {
 Elements elements_of(const tinygltf::Model& model, int index, int type, std::size_t most) {
     const auto& accessor = item(model.accessors, index, "accessor");
     const std::string name = "accessor " + std::to_string(index);
-    if (accessor.type != type) fail(name + " has the wrong type");
-    if (accessor.count == 0) fail(name + " is empty");
+    if (accessor.type != type) fail_gltf(name + " has the wrong type");
+    if (accessor.count == 0) fail_gltf(name + " is empty");
     if (accessor.count > most)
-        fail(name + " has " + std::to_string(accessor.count) + " elements; at most " +
-                 std::to_string(most) + " are read",
-             ErrorCode::model_too_large);
+        fail_gltf(name + " has " + std::to_string(accessor.count) + " elements; at most " +
+                      std::to_string(most) + " are read",
+                  ErrorCode::model_too_large);
     const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
     const std::size_t size =
         component_bytes(accessor.componentType) * static_cast<std::size_t>(std::max(components, 0));
-    if (size == 0) fail(name + " has an unknown component type");
+    if (size == 0) fail_gltf(name + " has an unknown component type");
     Elements elements;
     elements.count = accessor.count;
     elements.component_type = accessor.componentType;

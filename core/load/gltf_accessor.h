@@ -9,12 +9,12 @@
 
 namespace lastflat::gltf {
 
-[[noreturn]] void fail(const std::string& what, ErrorCode code = ErrorCode::unreadable_model);
+[[noreturn]] void fail_gltf(const std::string& what, ErrorCode code = ErrorCode::unreadable_model);
 
 template <class List>
 const auto& item(const List& list, int index, const char* what) {
     if (index < 0 || static_cast<std::size_t>(index) >= list.size())
-        fail(std::string(what) + " " + std::to_string(index) + " does not exist");
+        fail_gltf(std::string(what) + " " + std::to_string(index) + " does not exist");
     return list[static_cast<std::size_t>(index)];
 }
 

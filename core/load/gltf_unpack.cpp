@@ -20,14 +20,15 @@ using Json = nlohmann::json;
 constexpr const char* meshopt = "EXT_meshopt_compression";
 constexpr const char* draco = "KHR_draco_mesh_compression";
 
-[[noreturn]] void fail(const std::string& what, ErrorCode code = ErrorCode::unreadable_model) {
+[[noreturn]] void fail_unpacking(const std::string& what,
+                                 ErrorCode code = ErrorCode::unreadable_model) {
     throw Error(code, "glTF: compressed data: " + what);
 }
 
 std::size_t number(const Json& object, const char* name, std::size_t absent = 0) {
     const auto found = object.find(name);
     if (found == object.end()) return absent;
-    if (!found->is_number_unsigned()) fail(std::string(name) + " is no count");
+    if (!found->is_number_unsigned()) fail_unpacking(std::string(name) + " is no count");
     return found->get<std::size_t>();
 }
 
@@ -47,8 +48,8 @@ void undo_filter(const std::string& filter, std::string& bytes, std::size_t coun
     } else if (filter == "EXPONENTIAL" && stride % 4 == 0) {
         meshopt_decodeFilterExp(bytes.data(), count, stride);
     } else {
-        fail("the filter '" + filter.substr(0, 40) + "' is not known for this stride",
-             ErrorCode::unsupported_model);
+        fail_unpacking("the filter '" + filter.substr(0, 40) + "' is not known for this stride",
+                       ErrorCode::unsupported_model);
     }
 }
 
@@ -56,7 +57,8 @@ void undo_filter(const std::string& filter, std::string& bytes, std::size_t coun
 std::string decoded(const Json& view, std::string_view packed, std::size_t most_bytes) {
     const std::size_t stride = number(view, "byteStride"), count = number(view, "count");
     if (stride == 0 || stride > 256 || count == 0 || count > most_bytes / stride)
-        fail("a view has a count or a stride that it cannot have", ErrorCode::model_too_large);
+        fail_unpacking("a view has a count or a stride that it cannot have",
+                       ErrorCode::model_too_large);
     const auto* data = reinterpret_cast<const unsigned char*>(packed.data());
     const std::size_t length = packed.size();
     const std::string mode = text(view, "mode");
@@ -70,10 +72,10 @@ std::string decoded(const Json& view, std::string_view packed, std::size_t most_
     } else if (mode == "INDICES" && (stride == 2 || stride == 4)) {
         status = meshopt_decodeIndexSequence(bytes.data(), count, stride, data, length);
     } else {
-        fail("the mode '" + mode.substr(0, 40) + "' is not known for this stride",
-             ErrorCode::unsupported_model);
+        fail_unpacking("the mode '" + mode.substr(0, 40) + "' is not known for this stride",
+                       ErrorCode::unsupported_model);
     }
-    if (status != 0) fail("a view cannot be decoded");
+    if (status != 0) fail_unpacking("a view cannot be decoded");
     return bytes;
 }
 
@@ -81,7 +83,7 @@ std::string_view bin_chunk(std::string_view glb, std::string_view json) {
     const std::size_t at = static_cast<std::size_t>(json.data() - glb.data()) + json.size();
     if (glb.size() - at < 8) return {};
     const auto length = read_unsigned<std::uint32_t>(glb.substr(at), ByteOrder::little);
-    if (length > glb.size() - at - 8) fail("the BIN chunk is cut off");
+    if (length > glb.size() - at - 8) fail_unpacking("the BIN chunk is cut off");
     return glb.substr(at + 8, length);
 }
 
@@ -113,7 +115,7 @@ std::vector<unsigned char> embedded(const Json& buffer) {
     std::string type;
     if (!buffer.contains("uri")) return bytes;
     if (!tinygltf::DecodeDataURI(&bytes, type, text(buffer, "uri"), 0, false))
-        fail("a buffer's data URI cannot be decoded");
+        fail_unpacking("a buffer's data URI cannot be decoded");
     return bytes;
 }
 
@@ -127,7 +129,7 @@ public:
           // More for each vertex and triangle than any attribute that is read.
           room_(256 * (limits.vertices + limits.triangles)) {
         for (const Json& buffer : list("buffers")) {
-            if (!buffer.is_object()) fail("a buffer is no object");
+            if (!buffer.is_object()) fail_unpacking("a buffer is no object");
             const bool is_bin = bin && buffers_.empty() && !buffer.contains("uri");
             const std::size_t begin = bin_.size();
             if (is_bin) {
@@ -161,7 +163,7 @@ public:
 private:
     Json& list(const char* name) {
         Json& found = document_[name];
-        if (!found.is_array()) fail(std::string("there are no ") + name);
+        if (!found.is_array()) fail_unpacking(std::string("there are no ") + name);
         return found;
     }
     static Json* extension_of(Json& object, const char* name) {
@@ -172,7 +174,8 @@ private:
 
     /// Where the bytes begin in the buffer.
     std::size_t append(std::string_view bytes) {
-        if (bytes.size() > room_) fail("more than can be read", ErrorCode::model_too_large);
+        if (bytes.size() > room_)
+            fail_unpacking("more than can be read", ErrorCode::model_too_large);
         room_ -= bytes.size();
         bin_.resize((bin_.size() + 3) / 4 * 4, '\0');
         const std::size_t begin = bin_.size();
@@ -187,15 +190,15 @@ private:
     /// Where the bytes of a view are in the one buffer.
     [[nodiscard]] Part part_of(const Json& view) const {
         const std::size_t b = number(view, "buffer", buffers_.size());
-        if (b >= buffers_.size()) fail("a view names no buffer");
+        if (b >= buffers_.size()) fail_unpacking("a view names no buffer");
         const std::size_t offset = number(view, "byteOffset"), length = number(view, "byteLength");
         if (offset > buffers_[b].size || length > buffers_[b].size - offset)
-            fail("a view reaches past the end of its buffer");
+            fail_unpacking("a view reaches past the end of its buffer");
         return {buffers_[b].begin + offset, length};
     }
 
     void unpack_view(Json& view) {
-        if (!view.is_object()) fail("a buffer view is no object");
+        if (!view.is_object()) fail_unpacking("a buffer view is no object");
         const Json* packed = extension_of(view, meshopt);
         if (packed == nullptr) {
             view["byteOffset"] = part_of(view).begin;
@@ -215,11 +218,12 @@ private:
         Json* packed = extension_of(primitive, draco);
         if (packed == nullptr) return;
         const std::size_t v = number(*packed, "bufferView", document_["bufferViews"].size());
-        if (v >= document_["bufferViews"].size()) fail("a primitive names no buffer view");
+        if (v >= document_["bufferViews"].size())
+            fail_unpacking("a primitive names no buffer view");
         const Json& view = document_["bufferViews"][v];
         const std::size_t offset = number(view, "byteOffset"), length = number(view, "byteLength");
         if (offset > bin_.size() || length > bin_.size() - offset)
-            fail("a view reaches past the end of its buffer");
+            fail_unpacking("a view reaches past the end of its buffer");
         const Json attributes = packed->value("attributes", Json::object());
         const DracoTriangles decoded =
             decode_draco(std::string_view(bin_).substr(offset, length),

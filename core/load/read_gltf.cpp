@@ -21,7 +21,7 @@ public:
     RawMesh read() {
         mesh_.default_unit_mm = 1000.0;
         for (const int root : roots()) read_node(root, Eigen::Affine3d::Identity(), {}, 0);
-        if (mesh_.triangles.empty()) fail("the scene has no triangles");
+        if (mesh_.triangles.empty()) fail_gltf("the scene has no triangles");
         mesh_.indexed = any_indices_;
         return std::move(mesh_);
     }
@@ -69,10 +69,10 @@ private:
                    std::size_t depth) {
         const auto& node = item(model_.nodes, index, "node");
         if (on_path_[static_cast<std::size_t>(index)]) {
-            fail("node " + std::to_string(index) + " is its own descendant");
+            fail_gltf("node " + std::to_string(index) + " is its own descendant");
         }
         if (depth > limits_.json_depth || ++visits_ > max_visits) {
-            fail("the scene has too many levels or nodes", ErrorCode::model_too_large);
+            fail_gltf("the scene has too many levels or nodes", ErrorCode::model_too_large);
         }
         on_path_[static_cast<std::size_t>(index)] = true;
         add_name(names, node.name);
@@ -95,13 +95,13 @@ private:
 
     void add_name(std::vector<std::string>& names, const std::string& name) const {
         if (name.size() > limits_.name_bytes) {
-            fail("a name is longer than " + std::to_string(limits_.name_bytes) + " bytes",
-                 ErrorCode::model_too_large);
+            fail_gltf("a name is longer than " + std::to_string(limits_.name_bytes) + " bytes",
+                      ErrorCode::model_too_large);
         }
         if (name.empty()) return;
         if (names.size() >= limits_.face_names) {
-            fail("a face has more than " + std::to_string(limits_.face_names) + " names",
-                 ErrorCode::model_too_large);
+            fail_gltf("a face has more than " + std::to_string(limits_.face_names) + " names",
+                      ErrorCode::model_too_large);
         }
         names.push_back(name);
     }
@@ -111,11 +111,11 @@ private:
         const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
         spend(1);
         if (mode > TINYGLTF_MODE_TRIANGLE_FAN) {
-            fail("the primitive mode " + std::to_string(mode) + " does not exist");
+            fail_gltf("the primitive mode " + std::to_string(mode) + " does not exist");
         }
         if (mode == TINYGLTF_MODE_POINTS) return;
         const auto position = primitive.attributes.find("POSITION");
-        if (position == primitive.attributes.end()) fail("a primitive has no POSITION");
+        if (position == primitive.attributes.end()) fail_gltf("a primitive has no POSITION");
         const auto [base, count] = read_positions(position->second, transform);
         auto corners = read_corners(primitive.indices, base, count);
         spend(corners.size());
@@ -138,8 +138,8 @@ private:
             mesh_.triangle_labels.push_back(label);
         }
         if (mesh_.triangles.size() > limits_.triangles) {
-            fail("more than " + std::to_string(limits_.triangles) + " triangles",
-                 ErrorCode::model_too_large);
+            fail_gltf("more than " + std::to_string(limits_.triangles) + " triangles",
+                      ErrorCode::model_too_large);
         }
     }
 
@@ -147,15 +147,15 @@ private:
     Index add_positions(std::size_t count, const std::string& what, PositionAt position_at,
                         const Eigen::Affine3d& transform) {
         if (count > limits_.vertices - mesh_.positions.size()) {
-            fail("more than " + std::to_string(limits_.vertices) + " vertices",
-                 ErrorCode::model_too_large);
+            fail_gltf("more than " + std::to_string(limits_.vertices) + " vertices",
+                      ErrorCode::model_too_large);
         }
         const auto base = static_cast<Index>(mesh_.positions.size());
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3 position = transform * position_at(i);
             if (!position.allFinite()) {
-                fail("vertex " + std::to_string(i) + " of " + what + " is not finite",
-                     ErrorCode::mesh_degenerate);
+                fail_gltf("vertex " + std::to_string(i) + " of " + what + " is not finite",
+                          ErrorCode::mesh_degenerate);
             }
             mesh_.positions.push_back(position);
         }
@@ -164,8 +164,8 @@ private:
 
     void read_line(int mode, std::vector<Index> corners, const std::vector<std::string>& names) {
         if (mesh_.lines.size() >= limits_.lines)
-            fail("more than " + std::to_string(limits_.lines) + " lines",
-                 ErrorCode::model_too_large);
+            fail_gltf("more than " + std::to_string(limits_.lines) + " lines",
+                      ErrorCode::model_too_large);
         if (mode == TINYGLTF_MODE_LINE_LOOP && !corners.empty()) corners.push_back(corners.front());
         RawMesh::Line line{names, {}};
         // Segments of a list make one line where each begins where the last ended.
@@ -205,15 +205,15 @@ private:
         if (elements.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT ||
             elements.component_type == TINYGLTF_COMPONENT_TYPE_BYTE ||
             elements.component_type == TINYGLTF_COMPONENT_TYPE_SHORT) {
-            fail("accessor " + std::to_string(accessor) +
-                 " holds indices of a type that has a sign");
+            fail_gltf("accessor " + std::to_string(accessor) +
+                      " holds indices of a type that has a sign");
         }
         for (std::size_t i = 0; i < elements.count; ++i) {
             const double index = elements.at(i, 0);
             if (index >= static_cast<double>(count)) {
-                fail("index " + std::to_string(static_cast<std::uint64_t>(index)) +
-                     " of accessor " + std::to_string(accessor) + " is past its " +
-                     std::to_string(count) + " vertices");
+                fail_gltf("index " + std::to_string(static_cast<std::uint64_t>(index)) +
+                          " of accessor " + std::to_string(accessor) + " is past its " +
+                          std::to_string(count) + " vertices");
             }
             corners.push_back(base + static_cast<Index>(index));
         }
@@ -225,7 +225,7 @@ private:
     void spend(std::size_t work) {
         work_ += work;
         if (work_ > 4 * limits_.triangles) {
-            fail("the scene repeats its primitives too often", ErrorCode::model_too_large);
+            fail_gltf("the scene repeats its primitives too often", ErrorCode::model_too_large);
         }
     }
 
@@ -234,8 +234,8 @@ private:
         const auto [found, is_new] = known_labels_.try_emplace(names, next);
         if (is_new) {
             if (next >= limits_.name_sets) {
-                fail("more than " + std::to_string(limits_.name_sets) + " sets of names",
-                     ErrorCode::model_too_large);
+                fail_gltf("more than " + std::to_string(limits_.name_sets) + " sets of names",
+                          ErrorCode::model_too_large);
             }
             mesh_.label_sets.push_back(names);
         }
@@ -272,7 +272,7 @@ bool skip_image(tinygltf::Image*, const int, std::string*, std::string*, int, in
 
 RawMesh read_with_tinygltf(std::string_view bytes, bool binary, const LoadLimits& limits) {
     if (bytes.size() > std::numeric_limits<unsigned>::max()) {
-        fail("larger than 4 GiB", ErrorCode::model_too_large);
+        fail_gltf("larger than 4 GiB", ErrorCode::model_too_large);
     }
     tinygltf::TinyGLTF reader;
     reader.SetFsCallbacks({no_file_exists, no_expansion, read_no_file, write_no_file, nullptr});
@@ -287,7 +287,7 @@ RawMesh read_with_tinygltf(std::string_view bytes, bool binary, const LoadLimits
                : reader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
     if (!read) {
         while (!error.empty() && (error.back() == '\n' || error.back() == ' ')) error.pop_back();
-        fail(error.empty() ? "the document is not valid" : error.substr(0, 200));
+        fail_gltf(error.empty() ? "the document is not valid" : error.substr(0, 200));
     }
     return SceneReader(model, limits).read();
 }

@@ -40,7 +40,7 @@ std::size_t size_of(Scalar type) {
     return 8;
 }
 
-[[noreturn]] void fail(const std::string& what, ErrorCode code = ErrorCode::unreadable_model) {
+[[noreturn]] void fail_ply(const std::string& what, ErrorCode code = ErrorCode::unreadable_model) {
     throw Error(code, "PLY: " + what);
 }
 
@@ -68,7 +68,7 @@ public:
     BinarySource(std::string_view bytes, ByteOrder order) : rest_(bytes), order_(order) {}
     double next(Scalar type) override {
         const std::size_t size = size_of(type);
-        if (rest_.size() < size) fail("the file ends before its last element");
+        if (rest_.size() < size) fail_ply("the file ends before its last element");
         const std::string_view at = rest_;
         rest_.remove_prefix(size);
         switch (type) {
@@ -103,12 +103,12 @@ public:
         for (const Element& element : elements_) read_element(element, *source);
         for (const Index corner : used_) {
             if (corner >= static_cast<Index>(mesh_.positions.size()))
-                fail("a face names vertex " + std::to_string(corner) + " of " +
-                     std::to_string(mesh_.positions.size()));
+                fail_ply("a face names vertex " + std::to_string(corner) + " of " +
+                         std::to_string(mesh_.positions.size()));
         }
-        if (mesh_.positions.empty()) fail("no element 'vertex'");
+        if (mesh_.positions.empty()) fail_ply("no element 'vertex'");
         split_polygons();
-        if (mesh_.triangles.empty()) fail("no face; points have no surface");
+        if (mesh_.triangles.empty()) fail_ply("no face; points have no surface");
         return std::move(mesh_);
     }
 
@@ -163,8 +163,8 @@ private:
             return std::make_unique<BinarySource>(scanner_.rest(), ByteOrder::little);
         if (format == "binary_big_endian")
             return std::make_unique<BinarySource>(scanner_.rest(), ByteOrder::big);
-        fail("the format '" + format.substr(0, 40) + "' is not known",
-             ErrorCode::unsupported_model);
+        fail_ply("the format '" + format.substr(0, 40) + "' is not known",
+                 ErrorCode::unsupported_model);
     }
 
     void read_property() {
@@ -185,9 +185,9 @@ private:
     void read_element(const Element& element, Source& source) {
         if (element.properties.empty()) return;
         if (element.count > source.left())
-            fail("the element '" + element.name.substr(0, 40) + "' announces " +
-                 std::to_string(element.count) + " items, and " + std::to_string(source.left()) +
-                 " bytes are left");
+            fail_ply("the element '" + element.name.substr(0, 40) + "' announces " +
+                     std::to_string(element.count) + " items, and " +
+                     std::to_string(source.left()) + " bytes are left");
         if (element.name == "vertex") {
             read_vertices(element, source);
             return;
@@ -204,9 +204,9 @@ private:
 
     void read_vertices(const Element& element, Source& source) {
         if (element.count > limits_.vertices)
-            fail(std::to_string(element.count) + " vertices; at most " +
-                     std::to_string(limits_.vertices) + " are read",
-                 ErrorCode::model_too_large);
+            fail_ply(std::to_string(element.count) + " vertices; at most " +
+                         std::to_string(limits_.vertices) + " are read",
+                     ErrorCode::model_too_large);
         std::array<std::size_t, 3> places{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             places[axis] = element.properties.size();
@@ -215,8 +215,8 @@ private:
                     places[axis] = p;
             }
             if (places[axis] == element.properties.size())
-                fail("the vertices have no property '" +
-                     std::string(1, static_cast<char>('x' + axis)) + "'");
+                fail_ply("the vertices have no property '" +
+                         std::string(1, static_cast<char>('x' + axis)) + "'");
         }
         for (std::uint64_t i = 0; i < element.count; ++i) {
             Vec3 position = Vec3::Zero();
@@ -227,7 +227,8 @@ private:
                 }
             }
             if (!position.allFinite())
-                fail("vertex " + std::to_string(i) + " is not finite", ErrorCode::mesh_degenerate);
+                fail_ply("vertex " + std::to_string(i) + " is not finite",
+                         ErrorCode::mesh_degenerate);
             mesh_.positions.push_back(position);
         }
     }
@@ -237,10 +238,10 @@ private:
         if (!property.count_type) return source.next(property.type);
         const double count = source.next(*property.count_type);
         if (!(count >= 0.0) || count > static_cast<double>(source.left()))
-            fail("a list is longer than the file");
+            fail_ply("a list is longer than the file");
         if (corners && count > static_cast<double>(limits_.polygon_corners))
-            fail("a face has more than " + std::to_string(limits_.polygon_corners) + " corners",
-                 ErrorCode::model_too_large);
+            fail_ply("a face has more than " + std::to_string(limits_.polygon_corners) + " corners",
+                     ErrorCode::model_too_large);
         double value = 0.0;
         for (double i = 0.0; i < count; ++i) {
             value = source.next(property.type);
@@ -249,15 +250,15 @@ private:
         if (corners) {
             ends_.push_back(used_.size());
             if (ends_.size() > limits_.triangles)
-                fail("more than " + std::to_string(limits_.triangles) + " faces",
-                     ErrorCode::model_too_large);
+                fail_ply("more than " + std::to_string(limits_.triangles) + " faces",
+                         ErrorCode::model_too_large);
         }
         return value;
     }
 
     static Index corner(double value) {
         if (!(value >= 0.0) || value > static_cast<double>(std::numeric_limits<Index>::max()))
-            fail("a face names a vertex that does not exist");
+            fail_ply("a face names a vertex that does not exist");
         return static_cast<Index>(value);
     }
 
@@ -266,14 +267,14 @@ private:
         for (const std::size_t end : ends_) {
             const std::span<const Index> corners(used_.data() + begin, end - begin);
             begin = end;
-            if (corners.size() < 3) fail("a face has fewer than three corners");
+            if (corners.size() < 3) fail_ply("a face has fewer than three corners");
             for (const Triangle& triangle : triangulate_polygon(mesh_.positions, corners)) {
                 mesh_.triangles.push_back(triangle);
                 mesh_.triangle_labels.push_back(0);
             }
             if (mesh_.triangles.size() > limits_.triangles)
-                fail("more than " + std::to_string(limits_.triangles) + " triangles",
-                     ErrorCode::model_too_large);
+                fail_ply("more than " + std::to_string(limits_.triangles) + " triangles",
+                         ErrorCode::model_too_large);
         }
     }
 

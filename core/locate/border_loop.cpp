@@ -12,7 +12,7 @@ namespace {
 
 using HalfedgeHandle = OpenMesh::HalfedgeHandle;
 
-[[noreturn]] void fail(const CurveSource& source, const std::string& what) {
+[[noreturn]] void fail_border_at(const CurveSource& source, const std::string& what) {
     fail_curve(source.name, "border_at", std::nullopt, what, source.border_at->position);
 }
 
@@ -39,21 +39,21 @@ HalfedgeHandle nearest_side(const SurfaceMesh& surface, const CurveSource& sourc
         least = distance;
         best = side;
     }
-    if (!best.is_valid()) fail(source, "the surface is closed and has no border");
+    if (!best.is_valid()) fail_border_at(source, "the surface is closed and has no border");
     if (least > border_reach * size_of(surface))
-        fail(source, "the place is " + std::to_string(std::lround(least)) +
-                         " mm away from the nearest border; are the units right?");
+        fail_border_at(source, "the place is " + std::to_string(std::lround(least)) +
+                                   " mm away from the nearest border; are the units right?");
     return best;
 }
 
 HalfedgeHandle side_at(const SurfaceMesh& surface, const CurveSource& source, Index id) {
     if (!surface.is_on_surface(id))
-        fail(source, "vertex " + std::to_string(id) + " is not on the selected faces");
+        fail_border_at(source, "vertex " + std::to_string(id) + " is not on the selected faces");
     const OpenMesh::VertexHandle vertex(surface.welded_to[static_cast<std::size_t>(id)]);
     for (const auto side : surface.mesh.voh_range(vertex)) {
         if (surface.mesh.is_boundary(side)) return side;
     }
-    fail(source, "vertex " + std::to_string(id) + " is not on the border");
+    fail_border_at(source, "vertex " + std::to_string(id) + " is not on the border");
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace {
 
 using Edge = std::pair<Index, Index>;
 
-[[noreturn]] void fail(const CurveSource& source, const std::string& what,
-                       const std::optional<Vec3>& position = std::nullopt) {
+[[noreturn]] void fail_border_of(const CurveSource& source, const std::string& what,
+                                 const std::optional<Vec3>& position = std::nullopt) {
     fail_curve(source.name, "border_of", std::nullopt, what, position);
 }
 
@@ -65,14 +65,15 @@ std::vector<Index> group_line(const SurfaceMesh& surface, const CurveSource& sou
         neighbours[a].push_back(b);
         neighbours[b].push_back(a);
     }
-    if (neighbours.empty()) fail(source, "the groups do not meet along any edge");
+    if (neighbours.empty()) fail_border_of(source, "the groups do not meet along any edge");
     Index begin = neighbours.begin()->first;
     for (auto& [vertex, next] : neighbours) {
         std::sort(next.begin(), next.end());
         if (next.size() > 2)
-            fail(source,
-                 "the line between the groups branches at " + place(surface.position(vertex)),
-                 surface.position(vertex));
+            fail_border_of(
+                source,
+                "the line between the groups branches at " + place(surface.position(vertex)),
+                surface.position(vertex));
         if (next.size() == 1 && neighbours.at(begin).size() != 1) begin = vertex;
     }
     std::vector<Index> line{begin};
@@ -90,10 +91,10 @@ std::vector<Index> group_line(const SurfaceMesh& surface, const CurveSource& sou
     if (seen.size() < neighbours.size()) {
         const auto other = std::find_if(neighbours.begin(), neighbours.end(),
                                         [&](const auto& n) { return !seen.contains(n.first); });
-        fail(source,
-             "the groups meet along more than one line; another is at " +
-                 place(surface.position(other->first)),
-             surface.position(other->first));
+        fail_border_of(source,
+                       "the groups meet along more than one line; another is at " +
+                           place(surface.position(other->first)),
+                       surface.position(other->first));
     }
     return line;
 }

@@ -9,14 +9,6 @@
 #include "core/numerics/elimination_tree.h"
 
 namespace lastflat {
-namespace {
-
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 DominantLu::DominantLu(const SparseMatrix& matrix) {
     const SparseMatrix upper = matrix.triangularView<Eigen::Upper>();
     const SparseMatrix lower = SparseMatrix(matrix.transpose()).triangularView<Eigen::Upper>();

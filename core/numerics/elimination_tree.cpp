@@ -5,14 +5,6 @@
 #include <utility>
 
 namespace lastflat {
-namespace {
-
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 std::vector<Index> elimination_tree(const SparseMatrix& upper) {
     const auto n = static_cast<Index>(upper.cols());
     std::vector<Index> parent(at(n), -1), ancestor(at(n), -1);

@@ -11,10 +11,6 @@
 namespace lastflat {
 namespace {
 
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
-
 using ConstPanel = Eigen::Map<const Eigen::MatrixXd>;
 
 /// Multiplications that a front takes, about.

@@ -13,10 +13,6 @@ namespace {
 /// Blocks of at most this many vertices are dense enough as they are.
 constexpr std::size_t leaf_vertices = 12;
 
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
-
 class Dissector {
 public:
     Dissector(const VertexGraph& graph, const Points2& positions)

@@ -11,10 +11,6 @@
 namespace lastflat {
 namespace {
 
-std::size_t at(Index i) {
-    return static_cast<std::size_t>(i);
-}
-
 /// Where the columns begin that are at least a third full; the end, if those are too few to pay.
 Index tail_begin(const std::vector<std::size_t>& begin) {
     constexpr Index fewest = 48;

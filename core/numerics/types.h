@@ -18,6 +18,11 @@ using Points3 = std::vector<Vec3>;
 using Index = std::int32_t;
 using Triangle = std::array<Index, 3>;
 
+/// As an index of a standard container.
+inline std::size_t at(Index i) {
+    return static_cast<std::size_t>(i);
+}
+
 /// Triangles with their corners' places.
 struct Triangulation {
     Points3 positions;                ///< mm

@@ -28,10 +28,6 @@ Eigen::Matrix2d rest_edges(const Region& region, const Triangle& t) {
     return edges;
 }
 
-Vec2 point(const Eigen::VectorXd& x, Index vertex) {
-    return x.segment<2>(2 * vertex);
-}
-
 double smallest_positive_root(double a, double b, double c) {
     // a t^2 + b t + c = 0 with c > 0, by the formula that does not cancel.
     if (std::abs(a) < 1e-14 * std::abs(b)) return b < 0.0 ? -c / b : infinity;

@@ -26,4 +26,9 @@ struct Domain {
     [[nodiscard]] std::vector<Chart> charts(const Eigen::VectorXd& x) const;
 };
 
+/// Where a vertex lies.
+inline Vec2 point(const Eigen::VectorXd& coordinates, Index vertex) {
+    return coordinates.segment<2>(2 * vertex);
+}
+
 }  // namespace lastflat

@@ -13,8 +13,6 @@
 namespace lastflat::http {
 namespace {
 
-constexpr std::string_view line_end = "\r\n";
-
 struct RequestLine {
     std::string_view method;
     std::string_view target;

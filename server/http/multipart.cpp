@@ -13,14 +13,13 @@ namespace lastflat::http {
 namespace {
 
 constexpr std::size_t longest_part_head = 4096;
-constexpr std::string_view line_end = "\r\n";
 
 [[noreturn]] void refuse(const std::string& detail) {
     throw Refusal(400, "bad_multipart", "The multipart body cannot be read: " + detail);
 }
 
 /// memmem rather than string_view::find: a body of nothing but CRs must not cost more than others.
-std::size_t find(std::string_view text, std::string_view wanted) {
+std::size_t find_text(std::string_view text, std::string_view wanted) {
     const void* found = memmem(text.data(), text.size(), wanted.data(), wanted.size());
     if (!found) return std::string_view::npos;
     return static_cast<std::size_t>(static_cast<const char*>(found) - text.data());
@@ -64,7 +63,7 @@ std::pair<std::string_view, AfterDelimiter> cut_at_delimiter(std::string_view& r
                                                              std::string_view delimiter) {
     std::size_t from = 0;
     while (true) {
-        const std::size_t found = find(rest.substr(from), delimiter);
+        const std::size_t found = find_text(rest.substr(from), delimiter);
         if (found == std::string_view::npos) {
             refuse("the closing boundary is missing, so the body was cut off. Send it again.");
         }
@@ -120,7 +119,7 @@ BodyPart parse_part(std::string_view bytes) {
     bool has_name = false;
     std::size_t head_bytes = 0;
     while (true) {
-        const std::size_t end = find(bytes.substr(0, longest_part_head), line_end);
+        const std::size_t end = find_text(bytes.substr(0, longest_part_head), line_end);
         head_bytes += end;
         if (end == std::string_view::npos || head_bytes > longest_part_head) {
             refuse("a part's headers are longer than " + std::to_string(longest_part_head) +

@@ -7,19 +7,19 @@
 namespace lastflat::http {
 namespace {
 
-char lower_case(char c) {
+char lower_letter(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
 }
 
 std::optional<int> hex_digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
-    const char low = lower_case(c);
+    const char low = lower_letter(c);
     if (low >= 'a' && low <= 'f') return low - 'a' + 10;
     return std::nullopt;
 }
 
 bool is_token_character(char c) {
-    if ((c >= '0' && c <= '9') || (lower_case(c) >= 'a' && lower_case(c) <= 'z')) return true;
+    if ((c >= '0' && c <= '9') || (lower_letter(c) >= 'a' && lower_letter(c) <= 'z')) return true;
     return c != '\0' && std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
 }
 
@@ -60,7 +60,7 @@ std::optional<std::string> quoted_string(std::string_view text, std::size_t& at)
 std::string lower_case(std::string_view text) {
     std::string lowered(text);
     std::transform(lowered.begin(), lowered.end(), lowered.begin(),
-                   [](char c) { return lower_case(c); });
+                   [](char c) { return lower_letter(c); });
     return lowered;
 }
 

@@ -7,6 +7,8 @@
 
 namespace lastflat::http {
 
+constexpr std::string_view line_end = "\r\n";
+
 [[nodiscard]] std::string lower_case(std::string_view text);
 
 /// Without the spaces and tabs at both ends.

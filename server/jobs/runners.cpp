@@ -12,7 +12,7 @@ namespace lastflat::server {
 namespace {
 
 constexpr int most_inquiries = 2;
-constexpr std::chrono::milliseconds look{100};
+constexpr std::chrono::milliseconds look_every{100};
 
 ProcessLimits process_limits(const Settings& settings) {
     ProcessLimits limits;
@@ -48,7 +48,7 @@ Inquiry inquiry(const Settings& settings, const std::filesystem::path& work,
                Task task, const std::string& model, const std::string& request) {
         ProcessEnd end;
         end.kind = ProcessEnd::Kind::stopped;
-        while (!slots->try_acquire_for(look)) {
+        while (!slots->try_acquire_for(look_every)) {
             if (ends()) return end;
         }
         const std::filesystem::path file = work / ("inquiry-" + new_job_id());

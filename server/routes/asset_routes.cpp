@@ -50,14 +50,14 @@ void check_digest(const Request& request, const std::string& bytes) {
     refuse(404, "asset_not_found", "there is no asset " + id + "; it may have been deleted");
 }
 
-Response list(Service& service, const Request& request) {
+Response list_assets(Service& service, const Request& request) {
     Json items = Json::array();
     for (const Asset& asset : service.assets.list(request.principal))
         items.push_back(asset_json(asset));
     return json_response(200, Json{{"items", std::move(items)}}.dump());
 }
 
-Response add(Service& service, const Request& request) {
+Response add_asset(Service& service, const Request& request) {
     const http::BodyPart* model = nullptr;
     for (const http::BodyPart& part : request.body) {
         if (part.name.empty() || part.name == "model") model = &part;
@@ -91,14 +91,14 @@ Response add(Service& service, const Request& request) {
     return response;
 }
 
-Response get(Service& service, const Request& request) {
+Response get_asset(Service& service, const Request& request) {
     const std::string& id = request.captures.at(0);
     const auto asset = service.assets.find(request.principal, id);
     if (!asset) refuse_unknown(id);
     return asset_response(200, *asset);
 }
 
-Response remove(Service& service, const Request& request) {
+Response remove_asset(Service& service, const Request& request) {
     const std::string& id = request.captures.at(0);
     if (!service.assets.remove(request.principal, id)) refuse_unknown(id);
     drop_unneeded(service.blobs, service.jobs, {id});
@@ -126,9 +126,9 @@ std::vector<http::Route> asset_routes(Service& service) {
                            }),
                            takes_body};
     };
-    return {route("POST", "/v1/assets", add, true), route("GET", "/v1/assets", list),
-            route("GET", "/v1/assets/{digest}", get),
-            route("DELETE", "/v1/assets/{digest}", remove),
+    return {route("POST", "/v1/assets", add_asset, true), route("GET", "/v1/assets", list_assets),
+            route("GET", "/v1/assets/{digest}", get_asset),
+            route("DELETE", "/v1/assets/{digest}", remove_asset),
             route("POST", "/v1/validate", validate, true)};
 }
 

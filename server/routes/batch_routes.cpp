@@ -17,7 +17,7 @@ using http::Response;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_jobs = 200;
-constexpr int deepest = 14;
+constexpr int deepest_batch = 14;
 
 /// One job's own success or failure: a batch is taken in part.
 Json item(int status, Json content) {
@@ -64,10 +64,10 @@ private:
     const std::string key_;
 };
 
-Response post(Service& service, const Request& request) {
+Response post_batch(Service& service, const Request& request) {
     if (request.body.empty() || request.body.front().media_type != "application/json")
         refuse(415, "media_type_unsupported", "a batch is sent as application/json");
-    const auto document = api::parse_json(request.body.front().bytes, deepest);
+    const auto document = api::parse_json(request.body.front().bytes, deepest_batch);
     api::ObjectReader reader(api::Field{document, ""});
     const auto jobs = reader.find("jobs");
     reader.finish();
@@ -91,7 +91,7 @@ Response post(Service& service, const Request& request) {
     return response;
 }
 
-Response get(Service& service, const Request& request) {
+Response get_batch(Service& service, const Request& request) {
     const std::string& id = request.captures.at(0);
     JobFilter filter;
     filter.batch = id;
@@ -119,9 +119,10 @@ Response get(Service& service, const Request& request) {
 
 std::vector<http::Route> batch_routes(Service& service) {
     return {{"POST", "/v1/jobs:batch",
-             guarded([&service](const Request& request) { return post(service, request); }), true},
+             guarded([&service](const Request& request) { return post_batch(service, request); }),
+             true},
             {"GET", "/v1/batches/{id}",
-             guarded([&service](const Request& request) { return get(service, request); })}};
+             guarded([&service](const Request& request) { return get_batch(service, request); })}};
 }
 
 }  // namespace lastflat::server

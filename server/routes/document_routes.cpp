@@ -9,6 +9,8 @@
 namespace lastflat::server {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 http::Route document(const char* path, const char* type, std::string text) {
     const auto body = std::make_shared<const std::string>(std::move(text));
     const std::string etag = "\"" + sha256(*body).substr(0, 32) + "\"";
@@ -25,7 +27,6 @@ http::Route document(const char* path, const char* type, std::string text) {
 
 /// The schema of the constraint JSON as a document of its own.
 std::string constraint_schema() {
-    using Json = nlohmann::ordered_json;
     const Json contract = Json::parse(openapi_json);
     const Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                       {"title", "The constraints of a flattening"},

@@ -73,12 +73,12 @@ Response submitted_response(Service& service, const Request& request, Submitted 
     return response;
 }
 
-Response post(Service& service, const Request& request) {
+Response post_job(Service& service, const Request& request) {
     Submitted submitted = submit(service, request, read_submission(request), "", "");
     return submitted_response(service, request, std::move(submitted));
 }
 
-Response put(Service& service, const Request& request) {
+Response put_job(Service& service, const Request& request) {
     const std::string& id = request.captures.at(0);
     Submitted submitted = submit(service, request, read_submission(request), id, "");
     const bool repeated = submitted.repeated;
@@ -87,7 +87,7 @@ Response put(Service& service, const Request& request) {
     return response;
 }
 
-Response get(Service& service, const Request& request) {
+Response get_job(Service& service, const Request& request) {
     JobRecord job = found_job(service, request.principal, request.captures.at(0));
     const auto wait = preferred_wait(request);
     const bool waits = wait && !is_final(job.state);
@@ -97,7 +97,7 @@ Response get(Service& service, const Request& request) {
     return response;
 }
 
-Response cancel(Service& service, const Request& request) {
+Response cancel_job(Service& service, const Request& request) {
     const std::string& id = request.captures.at(0);
     const auto state = service.jobs.cancel(request.principal, id);
     if (!state) (void)found_job(service, request.principal, id);
@@ -110,7 +110,7 @@ Response cancel(Service& service, const Request& request) {
     return job_response(service, job, job.state == JobState::canceled ? 200 : 202);
 }
 
-Response remove(Service& service, const Request& request) {
+Response remove_job(Service& service, const Request& request) {
     const std::string& id = request.captures.at(0);
     const auto blobs = service.jobs.remove(request.principal, id);
     if (!blobs) (void)found_job(service, request.principal, id);
@@ -181,7 +181,7 @@ JobFilter filter_of(Service& service, const Request& request) {
     return filter;
 }
 
-Response list(Service& service, const Request& request) {
+Response list_jobs(Service& service, const Request& request) {
     const JobFilter filter = filter_of(service, request);
     const JobList jobs = service.jobs.list(request.principal, filter);
     std::string text = "{\"items\":[";
@@ -216,10 +216,12 @@ std::vector<http::Route> job_routes(Service& service) {
                            }),
                            takes_body};
     };
-    return {
-        route("POST", "/v1/jobs", post, true),    route("GET", "/v1/jobs", list),
-        route("PUT", "/v1/jobs/{id}", put, true), route("GET", "/v1/jobs/{id}", get),
-        route("DELETE", "/v1/jobs/{id}", remove), route("POST", "/v1/jobs/{id}/cancel", cancel)};
+    return {route("POST", "/v1/jobs", post_job, true),
+            route("GET", "/v1/jobs", list_jobs),
+            route("PUT", "/v1/jobs/{id}", put_job, true),
+            route("GET", "/v1/jobs/{id}", get_job),
+            route("DELETE", "/v1/jobs/{id}", remove_job),
+            route("POST", "/v1/jobs/{id}/cancel", cancel_job)};
 }
 
 }  // namespace lastflat::server

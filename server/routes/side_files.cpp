@@ -10,7 +10,7 @@
 namespace lastflat::server {
 namespace {
 
-constexpr int deepest = 64;
+constexpr int deepest_gltf = 64;
 constexpr std::string_view data_scheme = "data:";
 
 /// The part whose file name is the URI, plain or percent-encoded; a leading "./" does not count.
@@ -33,7 +33,7 @@ std::string with_buffers_inside(const std::string& gltf,
     if (gltf.find_first_not_of(" \t\r\n") == std::string::npos ||
         gltf[gltf.find_first_not_of(" \t\r\n")] != '{')
         refuse(400, "part_unused", "only a glTF document (JSON) has buffers beside it");
-    nlohmann::json document = api::parse_json(gltf, deepest);
+    nlohmann::json document = api::parse_json(gltf, deepest_gltf);
     std::vector<bool> used(buffers.size(), false);
     if (document.contains("buffers") && document["buffers"].is_array()) {
         for (auto& buffer : document["buffers"]) {

@@ -18,7 +18,7 @@ using http::Response;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_webhooks = 16, longest_url = 2000, secret_bytes = 24;
-constexpr int deepest = 4;
+constexpr int deepest_webhook = 4;
 const std::vector<std::string> event_names{"job.succeeded", "job.failed", "job.canceled"};
 
 Json webhook_json(const Webhook& webhook) {
@@ -57,7 +57,7 @@ void require_allowed(const Settings& settings) {
 Webhook read_webhook(const Request& request) {
     if (request.body.empty() || request.body.front().media_type != "application/json")
         refuse(415, "media_type_unsupported", "a webhook is sent as application/json");
-    const auto document = api::parse_json(request.body.front().bytes, deepest);
+    const auto document = api::parse_json(request.body.front().bytes, deepest_webhook);
     api::ObjectReader reader(api::Field{document, ""});
     const auto url = reader.find("url"), events = reader.find("events");
     reader.finish();
@@ -81,7 +81,7 @@ Webhook found(WebhookStore& webhooks, const Request& request) {
     return *webhook;
 }
 
-Response add(WebhookStore& webhooks, const Settings& settings, const Request& request) {
+Response add_webhook(WebhookStore& webhooks, const Settings& settings, const Request& request) {
     require_allowed(settings);
     Webhook webhook = read_webhook(request);
     if (webhooks.list(request.principal).size() >= most_webhooks)
@@ -99,7 +99,7 @@ Response add(WebhookStore& webhooks, const Settings& settings, const Request& re
     return response;
 }
 
-Response list(WebhookStore& webhooks, const Request& request) {
+Response list_webhooks(WebhookStore& webhooks, const Request& request) {
     Json items = Json::array();
     for (const Webhook& webhook : webhooks.list(request.principal))
         items.push_back(webhook_json(webhook));
@@ -113,7 +113,7 @@ Response deliveries(WebhookStore& webhooks, const Request& request) {
     return json_response(200, Json{{"items", std::move(items)}}.dump());
 }
 
-Response test(WebhookStore& webhooks, const Settings& settings, const Request& request) {
+Response test_webhook(WebhookStore& webhooks, const Settings& settings, const Request& request) {
     require_allowed(settings);
     const Webhook webhook = found(webhooks, request);
     if (!webhooks.add_test(webhook.id))
@@ -121,7 +121,7 @@ Response test(WebhookStore& webhooks, const Settings& settings, const Request& r
     return json_response(202, webhook_json(webhook).dump());
 }
 
-Response remove(WebhookStore& webhooks, const Request& request) {
+Response remove_webhook(WebhookStore& webhooks, const Request& request) {
     if (!webhooks.remove(request.principal, request.captures.at(0)))
         refuse(404, "webhook_not_found", "there is no webhook of this id");
     return empty_response(204);
@@ -131,15 +131,16 @@ Response remove(WebhookStore& webhooks, const Request& request) {
 
 std::vector<http::Route> webhook_routes(WebhookStore& webhooks, const Settings& settings) {
     return {{"POST", "/v1/webhooks",
-             guarded([&](const Request& r) { return add(webhooks, settings, r); }), true},
-            {"GET", "/v1/webhooks", guarded([&](const Request& r) { return list(webhooks, r); })},
+             guarded([&](const Request& r) { return add_webhook(webhooks, settings, r); }), true},
+            {"GET", "/v1/webhooks",
+             guarded([&](const Request& r) { return list_webhooks(webhooks, r); })},
             {"GET", "/v1/webhooks/{id}", guarded([&](const Request& r) {
                  return json_response(200, webhook_json(found(webhooks, r)).dump());
              })},
             {"DELETE", "/v1/webhooks/{id}",
-             guarded([&](const Request& r) { return remove(webhooks, r); })},
+             guarded([&](const Request& r) { return remove_webhook(webhooks, r); })},
             {"POST", "/v1/webhooks/{id}/test",
-             guarded([&](const Request& r) { return test(webhooks, settings, r); })},
+             guarded([&](const Request& r) { return test_webhook(webhooks, settings, r); })},
             {"GET", "/v1/webhooks/{id}/deliveries",
              guarded([&](const Request& r) { return deliveries(webhooks, r); })}};
 }

@@ -8,7 +8,7 @@
 namespace lastflat {
 namespace {
 
-Eigen::VectorXd some_chart(const Region& region) {
+Eigen::VectorXd bent_chart(const Region& region) {
     Eigen::VectorXd x(2 * static_cast<Eigen::Index>(region.positions.size()));
     for (std::size_t i = 0; i < region.positions.size(); ++i) {
         const Vec3& p = region.positions[i];
@@ -45,14 +45,14 @@ TEST_SUITE("core/constrain/stiff_curves") {
         const Minimum flat = test::minimised(
             region, flatten_fixed_border(region, mean_value_weights, circle_border(region)));
         CHECK(curves.value(domain.coordinates(flat.charts)) < 1e-12);
-        CHECK(curves.value(some_chart(region)) > 1e-6);
+        CHECK(curves.value(bent_chart(region)) > 1e-6);
     }
 
     TEST_CASE("gradient and exact Hessian are the derivatives of the value") {
         const Region region = test::saddle(4);
         const Domain domain({&region});
         const StiffCurves curves(domain, {lock("bottom"), lock("right")});
-        const Eigen::VectorXd x = some_chart(region);
+        const Eigen::VectorXd x = bent_chart(region);
         Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
         curves.add_gradient(x, gradient);
         Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(x.size(), x.size());

@@ -6,35 +6,23 @@
 
 #include "core/load/load_model.h"
 #include "core/weld/weld.h"
+#include "tests/helpers/errors.h"
+#include "tests/helpers/regions.h"
 #include "tests/helpers/sheets.h"
 
 namespace lastflat {
 namespace {
 
+using test::cut;
+using test::has;
+
 std::string tube(int around, int up) {
     return test::tube_obj(around, up);
 }
 
-std::vector<Region> cut(const std::string& obj, const std::vector<CurveSource>& sources,
-                        const CutOptions& options) {
-    SurfaceMesh surface = weld(load_model(obj));
-    const Curves curves = insert_curves(surface, locate_curves(surface, sources)).curves;
-    return cut_into_regions(surface, curves, options);
-}
-
-std::string error_of(const std::string& obj, const std::vector<CurveSource>& sources,
-                     const CutOptions& options) {
-    try {
-        (void)cut(obj, sources, options);
-    } catch (const Error& error) {
-        return std::string(name(error.code())) + " " + error.option().value_or("") + ": " +
-               error.what();
-    }
-    return "no error";
-}
-
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
+std::string cut_error(const std::string& obj, const std::vector<CurveSource>& sources,
+                      const CutOptions& options) {
+    return test::error_of([&] { (void)cut(obj, sources, options); });
 }
 
 const CurveSource front{"front", {0, 8, 16, 24}}, back{"back", {4, 12, 20, 28}};
@@ -93,7 +81,7 @@ TEST_SUITE("core/cut") {
         const std::string ball =
             "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
         CHECK(
-            has(error_of(ball, {}, {}),
+            has(cut_error(ball, {}, {}),
                 "region_not_disk /regions/region_1: region 'region_1' is not a disk: it is closed "
                 "(no border)"));
     }
@@ -117,19 +105,19 @@ TEST_SUITE("core/cut") {
                          id(i, j + 1) + "\n";
             }
         }
-        CHECK(has(error_of(torus, {}, {}), "genus 1, 1 border loop(s)"));
+        CHECK(has(cut_error(torus, {}, {}), "genus 1, 1 border loop(s)"));
     }
 
     TEST_CASE("choices that cannot be told apart are refused") {
         const std::vector<CurveSource> both{front, back};
-        CHECK(has(error_of(tube(8, 3), both, {{"front", "back"}, {{"a", 9, {}}, {"b", 10, {}}}}),
+        CHECK(has(cut_error(tube(8, 3), both, {{"front", "back"}, {{"a", 9, {}}, {"b", 10, {}}}}),
                   "is the same piece as region 'a'"));
         CHECK(
-            has(error_of(tube(8, 3), both, {{"front", "back"}, {{"a", 8, {}}}}), "lies on a cut"));
-        CHECK(has(error_of(tube(8, 3), both, {{"front", "back"}, {{"a", {}, {}}}}), "2 pieces"));
-        CHECK(has(error_of(tube(8, 3), both, {{"front", "side"}, {}}),
+            has(cut_error(tube(8, 3), both, {{"front", "back"}, {{"a", 8, {}}}}), "lies on a cut"));
+        CHECK(has(cut_error(tube(8, 3), both, {{"front", "back"}, {{"a", {}, {}}}}), "2 pieces"));
+        CHECK(has(cut_error(tube(8, 3), both, {{"front", "side"}, {}}),
                   "curve_invalid /cuts/1: cut 'side' names no curve"));
-        CHECK(has(error_of(tube(8, 3), both, {{"front", "back"}, {{"a", 99, {}}}}),
+        CHECK(has(cut_error(tube(8, 3), both, {{"front", "back"}, {{"a", 99, {}}}}),
                   "not on the selected faces"));
     }
 
@@ -144,13 +132,13 @@ TEST_SUITE("core/cut") {
 
 TEST_SUITE("core/locate/curves") {
     TEST_CASE("a broken path is named by curve, item and place") {
-        CHECK(has(error_of(tube(8, 3), {{"front", {0, 8, 24}}}, {}),
+        CHECK(has(cut_error(tube(8, 3), {{"front", {0, 8, 24}}}, {}),
                   "curve_invalid /curves/front/vertices/2: curve 'front', item 2: vertices 8 and "
                   "24 share no edge; they are 2.000 mm apart, at 1.0 0.0 1.0"));
-        CHECK(has(error_of(tube(8, 3), {{"front", {0, 99}}}, {}),
+        CHECK(has(cut_error(tube(8, 3), {{"front", {0, 99}}}, {}),
                   "item 1: vertex 99 does not exist"));
-        CHECK(has(error_of(tube(8, 3), {{"front", {0, 8, 0}}}, {}), "meets itself"));
-        CHECK(has(error_of(tube(8, 3), {{"front", {0}}}, {}), "needs two vertices"));
+        CHECK(has(cut_error(tube(8, 3), {{"front", {0, 8, 0}}}, {}), "meets itself"));
+        CHECK(has(cut_error(tube(8, 3), {{"front", {0}}}, {}), "needs two vertices"));
     }
 }
 

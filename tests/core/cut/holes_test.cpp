@@ -11,19 +11,15 @@
 #include "core/parameterize/fill_holes.h"
 #include "core/prepare.h"
 #include "core/weld/weld.h"
+#include "tests/helpers/regions.h"
 #include "tests/helpers/sheets.h"
 
 namespace lastflat {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::cut;
 
-std::vector<Region> cut(const std::string& obj, const std::vector<CurveSource>& sources = {},
-                        const CutOptions& options = {}) {
-    SurfaceMesh surface = weld(load_model(obj));
-    const Curves curves = insert_curves(surface, locate_curves(surface, sources)).curves;
-    return cut_into_regions(surface, curves, options);
-}
+constexpr double pi = std::numbers::pi;
 
 std::string ring() {
     return test::sheet_obj(6, 6, test::flat,

@@ -9,9 +9,12 @@
 #include "core/cut/cut.h"
 #include "core/load/load_model.h"
 #include "core/weld/weld.h"
+#include "tests/helpers/errors.h"
 
 namespace lastflat {
 namespace {
+
+using test::has;
 
 /// A bumpy square of n x n cells over 0..100 mm; vertex j (n + 1) + i.
 RawMesh bumpy(int n) {
@@ -77,19 +80,10 @@ CurveSource geodesic(const std::string& name, const std::vector<std::string>& th
     return source;
 }
 
-std::string error_of(SurfaceMesh surface, const std::vector<CurveSource>& sources,
-                     const std::vector<PointSource>& points = {}) {
-    try {
-        (void)insert_curves(surface, locate_curves(surface, sources, points));
-    } catch (const Error& error) {
-        return std::string(name(error.code())) + " " + error.option().value_or("") + ": " +
-               error.what();
-    }
-    return "no error";
-}
-
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
+std::string insert_error(SurfaceMesh surface, const std::vector<CurveSource>& sources,
+                         const std::vector<PointSource>& points = {}) {
+    return test::error_of(
+        [&] { (void)insert_curves(surface, locate_curves(surface, sources, points)); });
 }
 
 }  // namespace
@@ -198,7 +192,7 @@ TEST_SUITE("core/cut/insert_curves") {
             for (const Index v : curves[0].vertices) CHECK(surface.position(v).x() == 50.0);
         }
         seam.border_of = {"left", "middle"};
-        CHECK(has(error_of(surface_of(bumpy(4)), {seam}),
+        CHECK(has(insert_error(surface_of(bumpy(4)), {seam}),
                   "group_not_found /curves/seam/border_of/groups/1"));
     }
 
@@ -213,18 +207,19 @@ TEST_SUITE("core/cut/insert_curves") {
         CHECK(curves[0].vertices.front() == 5);
         CHECK(curves[0].vertices.back() == 115);
         source.line = "another";
-        CHECK(has(error_of(surface, {source}), "curve_invalid /curves/heel/line"));
+        CHECK(has(insert_error(surface, {source}), "curve_invalid /curves/heel/line"));
     }
 
     TEST_CASE("what cannot be found is refused with the curve, the item and the place") {
         const SurfaceMesh surface = surface_of(bumpy(10));
-        CHECK(has(error_of(surface, {drawn("far", {{1, 1, 0}, {50, 50, 40}})}),
+        CHECK(has(insert_error(surface, {drawn("far", {{1, 1, 0}, {50, 50, 40}})}),
                   "curve_invalid /curves/far/polyline/1: curve 'far', item 1: the point is"));
-        CHECK(has(error_of(surface, {geodesic("g", {"a", "b"})}, {{"a", 3, {}}}),
+        CHECK(has(insert_error(surface, {geodesic("g", {"a", "b"})}, {{"a", 3, {}}}),
                   "curve_invalid /curves/g/to: curve 'g': there is no point 'b'"));
-        CHECK(has(error_of(surface,
-                           {drawn("eight", {{20, 20, 0}, {60, 60, 0}, {60, 20, 0}, {20, 60, 0}})}),
-                  "curve_invalid /curves/eight: curve 'eight' meets itself"));
+        CHECK(has(
+            insert_error(surface,
+                         {drawn("eight", {{20, 20, 0}, {60, 60, 0}, {60, 20, 0}, {20, 60, 0}})}),
+            "curve_invalid /curves/eight: curve 'eight' meets itself"));
     }
 }
 

@@ -4,9 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/load/load_model.h"
+#include "tests/helpers/errors.h"
 
 namespace lastflat {
 namespace {
+
+using test::has;
+using test::load_error;
 
 using Json = nlohmann::json;
 
@@ -60,19 +64,6 @@ Json triangle() {
             {"buffers",
              {{{"byteLength", bytes.size()},
                {"uri", "data:application/octet-stream;base64," + base64(bytes)}}}}};
-}
-
-std::string error_of(const std::string& text) {
-    try {
-        (void)load_model(text);
-    } catch (const Error& error) {
-        return std::string(name(error.code())) + ": " + error.what();
-    }
-    return "no error";
-}
-
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 }  // namespace
@@ -153,35 +144,35 @@ TEST_SUITE("core/load/read_gltf") {
     TEST_CASE("what is not read is refused by name") {
         Json model = triangle();
         model["extensionsRequired"] = {"EXT_future_mesh"};
-        CHECK(has(error_of(model.dump()),
+        CHECK(has(load_error(model.dump()),
                   "unsupported_model: glTF: requires the extension EXT_future_mesh"));
         model = triangle();
         model["buffers"][0]["uri"] = "../../etc/passwd";
-        CHECK(has(error_of(model.dump()),
+        CHECK(has(load_error(model.dump()),
                   "unsupported_model: glTF: refers to another file, '../../etc/passwd'"));
         model = triangle();
         model["images"] = {{{"uri", "leather.png"}}};
-        CHECK(has(error_of(model.dump()), "'leather.png'"));
+        CHECK(has(load_error(model.dump()), "'leather.png'"));
     }
 
     TEST_CASE("what lies about its size or its links is refused") {
         Json model = triangle();
         model["accessors"][0]["count"] = 4;
-        CHECK(has(error_of(model.dump()), "accessor 0 reaches past the end"));
+        CHECK(has(load_error(model.dump()), "accessor 0 reaches past the end"));
         model = triangle();
         model["accessors"][0]["byteOffset"] = 18446744073709551600ULL;
-        CHECK(has(error_of(model.dump()), "unreadable_model"));
+        CHECK(has(load_error(model.dump()), "unreadable_model"));
         model = triangle();
         model["bufferViews"][0]["byteStride"] = 4;
-        CHECK(has(error_of(model.dump()), "accessor 0"));
+        CHECK(has(load_error(model.dump()), "accessor 0"));
         model = triangle();
         model["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 7;
-        CHECK(has(error_of(model.dump()), "accessor 7 does not exist"));
+        CHECK(has(load_error(model.dump()), "accessor 7 does not exist"));
         model = triangle();
         model["nodes"][0]["children"] = {0};
-        CHECK(has(error_of(model.dump()), "its own descendant"));
-        CHECK(has(error_of("{\"a\":" + std::string(1000, '[')), "nested deeper"));
-        CHECK(has(error_of("glTF\x02"), "ends inside its header"));
+        CHECK(has(load_error(model.dump()), "its own descendant"));
+        CHECK(has(load_error("{\"a\":" + std::string(1000, '[')), "nested deeper"));
+        CHECK(has(load_error("glTF\x02"), "ends inside its header"));
     }
 
     TEST_CASE("an index past the vertices is refused") {
@@ -189,7 +180,7 @@ TEST_SUITE("core/load/read_gltf") {
         const std::string bytes =
             raw<float>({0, 0, 0, 1, 0, 0, 0, 2, 0}) + raw<std::uint16_t>({0, 1, 3});
         model["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(bytes);
-        CHECK(has(error_of(model.dump()), "index 3 of accessor 1 is past its 3 vertices"));
+        CHECK(has(load_error(model.dump()), "index 3 of accessor 1 is past its 3 vertices"));
     }
 
     TEST_CASE("a sparse accessor replaces what it names") {
@@ -208,7 +199,7 @@ TEST_SUITE("core/load/read_gltf") {
             {"values", {{"bufferView", 3}}}};
         CHECK(load_model(model.dump()).positions[1] == Vec3(7, 8, 9));
         model["accessors"][0]["sparse"]["count"] = 4;
-        CHECK(has(error_of(model.dump()), "accessor 0 replaces more elements than it has"));
+        CHECK(has(load_error(model.dump()), "accessor 0 replaces more elements than it has"));
     }
 
     TEST_CASE("a position that is not finite is refused") {
@@ -216,7 +207,7 @@ TEST_SUITE("core/load/read_gltf") {
         const std::string bytes =
             raw<float>({0, 0, 0, INFINITY, 0, 0, 0, 2, 0}) + raw<std::uint16_t>({0, 1, 2});
         model["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(bytes);
-        CHECK(has(error_of(model.dump()), "mesh_degenerate"));
+        CHECK(has(load_error(model.dump()), "mesh_degenerate"));
     }
 }
 

@@ -2,22 +2,13 @@
 
 #include "core/load/load_model.h"
 #include "core/load/triangulate_polygon.h"
+#include "tests/helpers/errors.h"
 
 namespace lastflat {
 namespace {
 
-std::string error_of(std::string_view text, const LoadLimits& limits = {}) {
-    try {
-        (void)load_model(text, limits);
-    } catch (const Error& error) {
-        return std::string(name(error.code())) + ": " + error.what();
-    }
-    return "no error";
-}
-
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
+using test::has;
+using test::load_error;
 
 }  // namespace
 
@@ -70,32 +61,32 @@ TEST_SUITE("core/load/read_obj") {
     }
 
     TEST_CASE("what is wrong is named with its line") {
-        CHECK(has(error_of("v 0 0 0\nf 1 2 3\n"), "line 2: vertex 2 does not exist"));
-        CHECK(has(error_of("v 0 0 0\nf 0 1 1\n"), "line 2: vertex 0 does not exist"));
-        CHECK(has(error_of("v 0 0\n"), "line 1: a vertex needs three coordinates"));
-        CHECK(has(error_of("v 0 0 x\n"), "line 1: 'x' is not a number"));
-        CHECK(has(error_of("v 0 0 nan\n"), "not finite"));
-        CHECK(has(error_of("v 0 0 0\nf 1 1\n"), "a face needs three vertices"));
-        CHECK(has(error_of("hello\n"), "no vertex"));
-        CHECK(has(error_of("v 0 0 0\np 1\n"), "no face"));
-        CHECK(has(error_of("call other.obj\n"), "unsupported_model"));
-        CHECK(has(error_of(""), "0 bytes"));
+        CHECK(has(load_error("v 0 0 0\nf 1 2 3\n"), "line 2: vertex 2 does not exist"));
+        CHECK(has(load_error("v 0 0 0\nf 0 1 1\n"), "line 2: vertex 0 does not exist"));
+        CHECK(has(load_error("v 0 0\n"), "line 1: a vertex needs three coordinates"));
+        CHECK(has(load_error("v 0 0 x\n"), "line 1: 'x' is not a number"));
+        CHECK(has(load_error("v 0 0 nan\n"), "not finite"));
+        CHECK(has(load_error("v 0 0 0\nf 1 1\n"), "a face needs three vertices"));
+        CHECK(has(load_error("hello\n"), "no vertex"));
+        CHECK(has(load_error("v 0 0 0\np 1\n"), "no face"));
+        CHECK(has(load_error("call other.obj\n"), "unsupported_model"));
+        CHECK(has(load_error(""), "0 bytes"));
     }
 
     TEST_CASE("limits are errors of their own") {
         LoadLimits limits;
         limits.vertices = 2;
-        CHECK(has(error_of("v 0 0 0\nv 0 0 0\nv 0 0 0\n", limits), "model_too_large"));
+        CHECK(has(load_error("v 0 0 0\nv 0 0 0\nv 0 0 0\n", limits), "model_too_large"));
         limits = {};
         limits.polygon_corners = 3;
-        CHECK(has(error_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", limits),
+        CHECK(has(load_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", limits),
                   "model_too_large"));
     }
 
     TEST_CASE("formats that are not read are named") {
-        CHECK(has(error_of("solid last\nfacet"), "STL"));
-        CHECK(has(error_of("ply\nformat ascii 1.0\n"), "PLY"));
-        CHECK(has(error_of(std::string_view("\xFF\xFEv\0", 4)), "UTF-16"));
+        CHECK(has(load_error("solid last\nfacet"), "STL"));
+        CHECK(has(load_error("ply\nformat ascii 1.0\n"), "PLY"));
+        CHECK(has(load_error(std::string_view("\xFF\xFEv\0", 4)), "UTF-16"));
     }
 }
 

@@ -4,21 +4,13 @@
 
 #include <algorithm>
 
+#include "tests/helpers/errors.h"
+
 namespace lastflat {
 namespace {
 
-std::string error_of(const std::string& bytes) {
-    try {
-        (void)load_model(bytes);
-    } catch (const Error& error) {
-        return std::string(name(error.code())) + ": " + error.what();
-    }
-    return "no error";
-}
-
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
+using test::has;
+using test::load_error;
 
 std::string header(const std::string& format, const std::string& faces = "1") {
     return "ply\nformat " + format +
@@ -36,8 +28,8 @@ void append(std::string& bytes, T value, bool big) {
 
 std::string binary(bool big) {
     std::string bytes = header(big ? "binary_big_endian" : "binary_little_endian");
-    const double square[4][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
-    for (const auto& corner : square) {
+    const double corners[4][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
+    for (const auto& corner : corners) {
         append(bytes, static_cast<float>(corner[0]), big);
         append(bytes, corner[1], big);
         append(bytes, 0.0F, big);
@@ -63,21 +55,23 @@ TEST_SUITE("core/load/read_ply") {
     }
 
     TEST_CASE("what lies about its size is refused before memory is taken") {
-        CHECK(has(error_of(header("ascii", "99999999999") + "0 0 0 1\n"), "unreadable_model"));
-        CHECK(has(error_of(header("binary_little_endian", "4000000000") +
-                           binary(false).substr(header("binary_little_endian").size())),
+        CHECK(has(load_error(header("ascii", "99999999999") + "0 0 0 1\n"), "unreadable_model"));
+        CHECK(has(load_error(header("binary_little_endian", "4000000000") +
+                             binary(false).substr(header("binary_little_endian").size())),
                   "announces 4000000000 items"));
-        CHECK(has(error_of(binary(false).substr(0, binary(false).size() - 3)), "unreadable_model"));
+        CHECK(
+            has(load_error(binary(false).substr(0, binary(false).size() - 3)), "unreadable_model"));
     }
 
     TEST_CASE("what is broken is named") {
         const std::string points = "0 0 0 1\n2 0 0 1\n2 2 0 1\n0 2 0 1\n";
-        CHECK(has(error_of(header("ascii") + points + "3 0 1 9\n"), "a face names vertex 9 of 4"));
-        CHECK(has(error_of(header("ascii") + points + "3 0 1 -1\n"), "does not exist"));
-        CHECK(has(error_of(header("ascii") + points + "2 0 1\n"), "fewer than three corners"));
-        CHECK(has(error_of(header("latin") + points), "the format 'latin' is not known"));
-        CHECK(has(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
-                           "end_header\n0\n"),
+        CHECK(
+            has(load_error(header("ascii") + points + "3 0 1 9\n"), "a face names vertex 9 of 4"));
+        CHECK(has(load_error(header("ascii") + points + "3 0 1 -1\n"), "does not exist"));
+        CHECK(has(load_error(header("ascii") + points + "2 0 1\n"), "fewer than three corners"));
+        CHECK(has(load_error(header("latin") + points), "the format 'latin' is not known"));
+        CHECK(has(load_error("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                             "end_header\n0\n"),
                   "no property 'y'"));
     }
 }

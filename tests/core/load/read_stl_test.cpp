@@ -4,21 +4,13 @@
 
 #include <cstring>
 
+#include "tests/helpers/errors.h"
+
 namespace lastflat {
 namespace {
 
-std::string error_of(const std::string& bytes) {
-    try {
-        (void)load_model(bytes);
-    } catch (const Error& error) {
-        return std::string(name(error.code())) + ": " + error.what();
-    }
-    return "no error";
-}
-
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
+using test::has;
+using test::load_error;
 
 template <class T>
 void append(std::string& bytes, T value) {
@@ -66,20 +58,20 @@ TEST_SUITE("core/load/read_stl") {
     TEST_CASE("a count that lies is replaced by the bytes that are there") {
         CHECK(load_model(binary(0, 3)).triangles.size() == 3);
         CHECK(load_model(binary(4'000'000'000U, 3)).triangles.size() == 3);
-        CHECK(has(error_of(binary(2, 2).substr(0, 84 + 70)), "unreadable_model"));
+        CHECK(has(load_error(binary(2, 2).substr(0, 84 + 70)), "unreadable_model"));
     }
 
     TEST_CASE("what is broken is named with its line or its triangle") {
         std::string broken = text;
         broken.replace(broken.find("3 0\n"), 1, "x");
-        CHECK(has(error_of(broken), "STL line 6: 'x' is not a number"));
-        CHECK(has(error_of("solid\nfacet normal 0 0 1\nouter loop\nendloop\n"),
+        CHECK(has(load_error(broken), "STL line 6: 'x' is not a number"));
+        CHECK(has(load_error("solid\nfacet normal 0 0 1\nouter loop\nendloop\n"),
                   "STL line 4: 'endloop' where 'vertex' is needed"));
         std::string infinite = binary(1, 1);
         const float number = INFINITY;
         std::memcpy(infinite.data() + 100, &number, sizeof number);
-        CHECK(has(error_of(infinite), "mesh_degenerate: STL: a coordinate of triangle 0"));
-        CHECK(has(error_of("solid a\nendsolid a\n"), "has no triangle"));
+        CHECK(has(load_error(infinite), "mesh_degenerate: STL: a coordinate of triangle 0"));
+        CHECK(has(load_error("solid a\nendsolid a\n"), "has no triangle"));
     }
 
     TEST_CASE("limits hold before memory is taken") {

@@ -3,21 +3,15 @@
 #include <doctest/doctest.h>
 
 #include "core/load/load_model.h"
+#include "tests/helpers/errors.h"
 
 namespace lastflat {
 namespace {
 
-std::string error_of(const std::string& obj, const WeldOptions& options = {}) {
-    try {
-        (void)weld(load_model(obj), options);
-    } catch (const Error& error) {
-        return std::string(name(error.code())) + ": " + error.what();
-    }
-    return "no error";
-}
+using test::has;
 
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
+std::string weld_error(const std::string& obj, const WeldOptions& options = {}) {
+    return test::error_of([&] { (void)weld(load_model(obj), options); });
 }
 
 const std::string tetrahedron =
@@ -41,19 +35,20 @@ double volume(const SurfaceMesh& surface) {
 TEST_SUITE("core/weld") {
     TEST_CASE("what is not a surface is refused with its place") {
         CHECK(has(
-            error_of("v 0 0 0\nv 0 0 2\nv 1 0 0\nv 0 1 0\nv -1 0 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n"),
+            weld_error("v 0 0 0\nv 0 0 2\nv 1 0 0\nv 0 1 0\nv -1 0 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n"),
             "mesh_not_manifold: edge shared by 3 faces at 0.0 0.0 1.0"));
-        CHECK(has(error_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nf 1 2 3\nf 1 4 5\n"),
+        CHECK(has(weld_error("v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nf 1 2 3\nf 1 4 5\n"),
                   "mesh_not_manifold: vertex 0 joins parts"));
-        CHECK(has(error_of("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"),
+        CHECK(has(weld_error("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"),
                   "mesh_degenerate: no face is left"));
     }
 
     TEST_CASE("a missing group is named, with those that there are") {
         WeldOptions options;
         options.groups = {"uper"};
-        CHECK(has(error_of("v 0 0 0\nv 1 0 0\nv 0 1 0\ng upper\nf 1 2 3\n", options),
-                  "group_not_found: group 'uper' does not exist: the model has 'upper'"));
+        CHECK(has(weld_error("v 0 0 0\nv 1 0 0\nv 0 1 0\ng upper\nf 1 2 3\n", options),
+                  "group_not_found /surface/groups/0: group 'uper' does not exist: the model has "
+                  "'upper'"));
     }
 
     TEST_CASE("a closed model inside out is turned, and it is said") {

@@ -19,7 +19,7 @@ std::string verdict(const std::string& bytes, std::size_t step, std::uint64_t mo
     return framing.broken() ? "broken" : framing.too_large() ? "too large" : "more";
 }
 
-struct Row {
+struct ChunkedRow {
     std::string bytes;
     std::string verdict;
 };
@@ -28,7 +28,7 @@ struct Row {
 
 TEST_SUITE("server/http/chunked_framing") {
     TEST_CASE("a chunked body ends where RFC 9112 says, however it is cut") {
-        const Row rows[] = {
+        const ChunkedRow rows[] = {
             {"0\r\n\r\n", "complete 5"},
             {"5\r\nhello\r\n0\r\n\r\nGET /", "complete 15"},
             {"5;name=\"v\"\r\nhello\r\n000\r\n\r\n", "complete 26"},
@@ -58,7 +58,7 @@ TEST_SUITE("server/http/chunked_framing") {
             {"32\r\n" + std::string(50, 'x') + "\r\n33\r\n", "too large"},
             {"ffffffffffffffffffffffff\r\n", "too large"},
         };
-        for (const Row& row : rows) {
+        for (const ChunkedRow& row : rows) {
             for (const std::size_t step : {1, 2, 3, 1000}) {
                 CAPTURE(row.bytes);
                 CAPTURE(step);

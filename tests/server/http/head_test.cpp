@@ -57,13 +57,13 @@ std::string verdict(const std::string& raw) {
     }
 }
 
-struct Row {
+struct HeadRow {
     std::string raw;
     std::string verdict;
 };
 
-void check_rows(const std::vector<Row>& rows) {
-    for (const Row& row : rows) {
+void check_rows(const std::vector<HeadRow>& rows) {
+    for (const HeadRow& row : rows) {
         CAPTURE(row.raw.substr(0, 300));
         CHECK(verdict(row.raw) == row.verdict);
     }

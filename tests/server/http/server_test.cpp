@@ -15,7 +15,7 @@ ServerLimits small_limits() {
     return limits;
 }
 
-struct Row {
+struct RequestRow {
     std::string request;
     int status;
     std::string body;
@@ -30,7 +30,7 @@ TEST_SUITE("server/http/server") {
         const std::string form =
             "--B\r\nContent-Disposition: form-data; name=\"m\"\r\n\r\nbytes\r\n--B--\r\n";
         const std::string length = std::to_string(form.size());
-        const Row rows[] = {
+        const RequestRow rows[] = {
             {get("/echo?a=b"), 200, "GET /echo 127.0.0.1"},
             {get("/echo", "REMOTE_ADDR: 9.9.9.9\r\n"), 200, "GET /echo 127.0.0.1"},
             {"GET /echo HTTP/1.0\r\n\r\n", 200, "GET /echo 127.0.0.1"},
@@ -48,7 +48,7 @@ TEST_SUITE("server/http/server") {
                   form),
              200, "POST /echo 127.0.0.1\nm||bytes"},
         };
-        for (const Row& row : rows) {
+        for (const RequestRow& row : rows) {
             CAPTURE(row.request);
             const std::string answer = ask(server.port(), row.request);
             CHECK(status_of(answer) == row.status);
@@ -66,7 +66,7 @@ TEST_SUITE("server/http/server") {
         const std::string cut_form =
             "--B\r\nContent-Disposition: form-data; name=\"m\"\r\n\r\n" + std::string(31, 'x');
         REQUIRE(cut_form.size() == 80);
-        const Row rows[] = {
+        const RequestRow rows[] = {
             {get("/nowhere"), 404, "not_found"},
             {"DELETE /echo HTTP/1.1\r\nHost: a\r\n\r\n", 405, "method_not_allowed"},
             {get("/echo", "Content-Length: 30\r\n") + "GET /echo HTTP/1.1\r\nHost: a\r\n\r\n", 400,
@@ -87,7 +87,7 @@ TEST_SUITE("server/http/server") {
             {"\x16\x03\x01\x02", 400, "bad_line_end"},
             {"GET /echo HTTP/1.1\nHost: a\n\n", 400, "bad_line_end"},
         };
-        for (const Row& row : rows) {
+        for (const RequestRow& row : rows) {
             CAPTURE(row.request);
             const std::string answer = ask(server.port(), row.request);
             CHECK(status_of(answer) == row.status);
