@@ -2,6 +2,8 @@
 
 import base64
 import json
+import pathlib
+import signal
 import subprocess
 import tempfile
 import time
@@ -130,5 +132,60 @@ def walk_expiry(program, contract, example):
         for method, path, operation in contract.operations():
             if "410" in operation["responses"]:
                 walk.expect(410, "job_expired" if method != "HEAD" else None, method, path, id=id)
+    finally:
+        server.stop()
+
+
+def walk_busy(program, contract):
+    """A service all of whose threads and places to wait for one are taken: 503 before any handler."""
+    server = Server(program)
+    try:
+        walk = Walk(server, contract)
+        half_sent = b"POST /v1/assets HTTP/1.1\r\nHost: x\r\nContent-Length: 9\r\n\r\n"
+        held = [server.open(half_sent) for _ in range(64)]
+        time.sleep(0.5)
+        held += [server.open(b"GET /v1/jobs HTTP/1.1\r\nHost: x\r\n\r\n") for _ in range(256)]
+        time.sleep(0.5)
+        for method, path, operation in contract.operations():
+            if "503" in operation["responses"]:
+                if path == "/healthz" and method != "OPTIONS":  # has threads of its own
+                    walk.expect(200, None, method, path)
+                else:
+                    walk.expect(503, "server_busy" if method != "HEAD" else None, method, path)
+        for connection in held:
+            connection.close()
+        # Even they can be outrun, by hundreds of requests that arrive as one; not every time.
+        for method in ("GET", "HEAD") * 10:
+            if (method, "/healthz", 503) in contract.seen:
+                continue
+            server.process.send_signal(signal.SIGSTOP)
+            asked = [server.open(f"{method} /healthz HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n".encode()) for _ in range(400)]
+            server.process.send_signal(signal.SIGCONT)
+            for connection in asked:
+                contract.check(method, "/healthz", server.read(connection))
+    finally:
+        server.stop()
+
+
+def walk_broken(program, contract, example):
+    """Bytes that have changed on the disk are never handed out."""
+    server = Server(program)
+    try:
+        walk = Walk(server, contract)
+        model = base64.b64decode(example["model"]["data"])
+        asset = walk.expect(201, None, "POST", "/v1/assets", body=b"# an asset\n" + model)["id"]
+        own = "0f8fad5b-d9cb-469f-a165-70867728950e"
+        submitted = {"headers": ["Prefer: wait=30", 'Idempotency-Key: "k"'], "body": model}
+        id = walk.expect(200, None, "POST", "/v1/jobs", **submitted)["id"]
+        walk.expect(200, None, "PUT", "/v1/jobs/{id}", id=own, **submitted)
+        for blob in pathlib.Path(server.folder.name, "blobs").glob("*/*"):
+            blob.write_bytes(bytes(blob.stat().st_size))
+        to_map = {"id": id, "headers": ["Content-Type: application/json"], "body": b'{"to_last": {"region": "r", "points": [[0, 0]]}}'}
+        special = {"POST /v1/jobs": submitted, "PUT /v1/jobs/{id}": {"id": own, **submitted}, "POST /v1/jobs/{id}/map": to_map,
+                   "POST /v1/validate": {"query": "?asset_id=" + asset, "body": b""}}
+        for method, path, operation in contract.operations():
+            if "500" in operation["responses"]:
+                walk.expect(500, "result_corrupt" if method != "HEAD" else None, method, path,
+                            **special.get(f"{method} {path}", {"id": id}))
     finally:
         server.stop()
