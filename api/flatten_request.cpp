@@ -264,6 +264,8 @@ JsonSubmission json_submission_from_json(std::string_view text, const RequestLim
         if (submission.request_text.size() > limits.bytes)
             request->fail("has more than " + std::to_string(limits.bytes) + " bytes");
     }
+    if (const auto webhook = reader.find("webhook"))
+        submission.webhook = read_webhook(*webhook, WebhookScope::job);
     reader.finish();
     return submission;
 }

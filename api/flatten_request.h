@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "api/webhook_request.h"
+
 namespace lastflat::api {
 
 enum class Unit { mm, cm, m, in };
@@ -138,10 +140,11 @@ struct JsonSubmission {
     std::string asset_id;  ///< of a model that was sent before
     FlattenRequest request;
     std::string request_text;  ///< its JSON; empty if absent
+    std::optional<WebhookRequest> webhook;
 };
 
-/// Reads {"model": {"data": base64} or {"asset_id": id}, "request": {...}}; pointers begin at this
-/// document.
+/// Reads {"model": {"data": base64} or {"asset_id": id}, "request": {...}, "webhook": {...}};
+/// pointers begin at this document.
 /// Throws: InvalidRequest naming the field.
 [[nodiscard]] JsonSubmission json_submission_from_json(std::string_view text,
                                                        const RequestLimits& limits = {});

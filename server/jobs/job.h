@@ -10,6 +10,11 @@
 
 namespace lastflat::server {
 
+/// Who is told of one job's end.
+struct JobWebhook {
+    std::string url, secret, events;  ///< see `Webhook`
+};
+
 /// What a job asks for. The model is a blob; the request is the constraint JSON as it was sent.
 struct NewJob {
     std::string id;
@@ -21,6 +26,7 @@ struct NewJob {
     std::string fingerprint;                   ///< of everything asked: the same means a repetition
     std::string idempotency_key;               ///< empty: none
     std::optional<std::int64_t> cancel_at_ms;  ///< if it has not ended by then
+    std::optional<JobWebhook> webhook;
 };
 
 /// One format of a result: a part of the result's blob.

@@ -4,8 +4,10 @@
 
 #include "api/base64.h"
 #include "api/flatten_request.h"
+#include "api/object_reader.h"
 #include "server/routes/side_files.h"
 #include "server/translate.h"
+#include "server/webhooks/post_message.h"
 
 namespace lastflat::server {
 namespace {
@@ -87,8 +89,15 @@ bool is_form(const http::Request& request) {
 
 Submission read_json_submission(std::string_view text) {
     api::JsonSubmission json = api::json_submission_from_json(text);
-    Submission submission{
-        std::move(json.model), std::move(json.asset_id), std::move(json.request_text), {}};
+    Submission submission;
+    submission.model = std::move(json.model);
+    submission.asset = std::move(json.asset_id);
+    submission.request = std::move(json.request_text);
+    if (json.webhook) {
+        if (!is_webhook_url(json.webhook->url))
+            throw api::InvalidRequest("/webhook/url", not_a_webhook_url);
+        submission.webhook = {json.webhook->url, json.webhook->secret, json.webhook->events};
+    }
     return checked(std::move(submission), json.request);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "server/http/http.h"
+#include "server/jobs/job.h"
 #include "server/routes/answers.h"
 
 namespace lastflat::server {
@@ -11,6 +12,7 @@ struct Submission {
     std::string asset;    ///< digest of an asset
     std::string request;  ///< the constraint JSON, valid; may be empty: every default
     std::string tag;
+    std::optional<JobWebhook> webhook;
 };
 
 /// multipart/form-data with the parts `model` (and the `buffers` of a glTF, the `mtl` of an OBJ) or
@@ -20,7 +22,7 @@ struct Submission {
 /// Throws: Refusal, api::InvalidRequest.
 [[nodiscard]] Submission read_submission(const http::Request& request);
 
-/// One submission as JSON: {"model": {"data" | "asset_id"}, "request": {...}}.
+/// One submission as JSON: {"model": {"data" | "asset_id"}, "request": {...}, "webhook": {...}}.
 [[nodiscard]] Submission read_json_submission(std::string_view text);
 
 }  // namespace lastflat::server

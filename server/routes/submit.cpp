@@ -3,6 +3,7 @@
 #include "server/crypto.h"
 #include "server/duration.h"
 #include "server/routes/job_view.h"
+#include "server/routes/webhook_routes.h"
 
 namespace lastflat::server {
 namespace {
@@ -85,6 +86,12 @@ std::string digest_of_model(Service& service, const std::string& owner,
     return asset->digest;
 }
 
+/// Nothing without a webhook: fingerprints of earlier versions stay good.
+std::string webhook_print(const NewJob& job) {
+    if (!job.webhook) return {};
+    return "\n" + job.webhook->url + "\n" + job.webhook->events + "\n" + job.webhook->secret;
+}
+
 }  // namespace
 
 void check_room(const Service& service) {
@@ -99,6 +106,7 @@ Submitted submit(Service& service, const http::Request& request, const Submissio
                  const std::string& id, const std::string& batch) {
     if (service.draining)
         refuse(503, "draining", "the service is ending and takes no new jobs; try again later");
+    if (submission.webhook) require_webhooks(service.settings);
     check_room(service);
     NewJob job;
     job.id = id.empty() ? new_job_id() : id;
@@ -108,6 +116,7 @@ Submitted submit(Service& service, const http::Request& request, const Submissio
     job.request = submission.request;
     job.idempotency_key = idempotency_key(request);
     job.cancel_at_ms = cancel_time(request);
+    job.webhook = submission.webhook;
     const InFlight in_flight(service.keys_in_flight, job.idempotency_key.empty()
                                                          ? ""
                                                          : job.owner + " " + job.idempotency_key);
@@ -116,7 +125,7 @@ Submitted submit(Service& service, const http::Request& request, const Submissio
         const auto pin = service.blobs.pin();
         job.model = digest_of_model(service, job.owner, submission, job);
         job.fingerprint = sha256(job.model + "\n" + std::string(request.header("cancel-after")) +
-                                 "\n" + job.request);
+                                 "\n" + job.request + webhook_print(job));
         admitted = service.jobs.add(job, {service.settings.queue, service.settings.queue_per_key});
     }
     if (admitted.admission == Admission::queued) {

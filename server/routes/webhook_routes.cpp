@@ -5,6 +5,7 @@
 #include "api/base64.h"
 #include "api/job.h"
 #include "api/object_reader.h"
+#include "api/webhook_request.h"
 #include "server/crypto.h"
 #include "server/jobs/job.h"
 #include "server/routes/answers.h"
@@ -17,9 +18,8 @@ using http::Request;
 using http::Response;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_webhooks = 16, longest_url = 2000, secret_bytes = 24;
+constexpr std::size_t most_webhooks = 16, secret_bytes = 24;
 constexpr int deepest_webhook = 4;
-const std::vector<std::string> event_names{"job.succeeded", "job.failed", "job.canceled"};
 
 Json webhook_json(const Webhook& webhook) {
     Json events = Json::array();
@@ -48,30 +48,15 @@ Json delivery_json(const Delivery& delivery) {
     return json;
 }
 
-void require_allowed(const Settings& settings) {
-    if (settings.webhooks == WebhookTargets::none)
-        refuse(403, "webhooks_off",
-               "this service sends no webhooks (--webhooks off); poll instead");
-}
-
 Webhook read_webhook(const Request& request) {
     if (request.body.empty() || request.body.front().media_type != "application/json")
         refuse(415, "media_type_unsupported", "a webhook is sent as application/json");
     const auto document = api::parse_json(request.body.front().bytes, deepest_webhook);
-    api::ObjectReader reader(api::Field{document, ""});
-    const auto url = reader.find("url"), events = reader.find("events");
-    reader.finish();
-    if (!url) throw api::InvalidRequest("/url", "must be given: where to send to");
+    const auto asked = api::read_webhook(api::Field{document, ""}, api::WebhookScope::jobs);
+    if (!is_webhook_url(asked.url)) throw api::InvalidRequest("/url", not_a_webhook_url);
     Webhook webhook;
-    webhook.url = url->text(longest_url);
-    if (!is_webhook_url(webhook.url))
-        url->fail("must be an http or https address without a user name");
-    if (events) {
-        for (const api::Field& event : events->items(event_names.size()))
-            webhook.events +=
-                (webhook.events.empty() ? "" : " ") + event_names[event.choice(event_names)];
-    }
-    if (webhook.events.empty()) webhook.events = "job.succeeded job.failed job.canceled";
+    webhook.url = asked.url;
+    webhook.events = asked.events;
     return webhook;
 }
 
@@ -82,14 +67,15 @@ Webhook found(WebhookStore& webhooks, const Request& request) {
 }
 
 Response add_webhook(WebhookStore& webhooks, const Settings& settings, const Request& request) {
-    require_allowed(settings);
+    require_webhooks(settings);
     Webhook webhook = read_webhook(request);
     if (webhooks.list(request.principal).size() >= most_webhooks)
         refuse(422, "too_many_webhooks",
                "there are " + std::to_string(most_webhooks) + " webhooks already; delete one");
     webhook.id = new_job_id();
     webhook.owner = request.principal;
-    webhook.secret = "whsec_" + api::encode_base64(random_bytes(secret_bytes));
+    webhook.secret =
+        std::string(api::secret_prefix) + api::encode_base64(random_bytes(secret_bytes));
     webhook.created_ms = now_ms();
     webhooks.add(webhook);
     Json json = webhook_json(webhook);
@@ -114,7 +100,7 @@ Response deliveries(WebhookStore& webhooks, const Request& request) {
 }
 
 Response test_webhook(WebhookStore& webhooks, const Settings& settings, const Request& request) {
-    require_allowed(settings);
+    require_webhooks(settings);
     const Webhook webhook = found(webhooks, request);
     if (!webhooks.add_test(webhook.id))
         refuse(429, "too_many_messages", "messages to this webhook are waiting already; see them");
@@ -128,6 +114,12 @@ Response remove_webhook(WebhookStore& webhooks, const Request& request) {
 }
 
 }  // namespace
+
+void require_webhooks(const Settings& settings) {
+    if (settings.webhooks == WebhookTargets::none)
+        refuse(403, "webhooks_off",
+               "this service sends no webhooks (--webhooks off); poll instead");
+}
 
 std::vector<http::Route> webhook_routes(WebhookStore& webhooks, const Settings& settings) {
     return {{"POST", "/v1/webhooks",

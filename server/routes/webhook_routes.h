@@ -7,6 +7,9 @@
 
 namespace lastflat::server {
 
+/// Throws: Refusal (403) if the service sends no webhooks.
+void require_webhooks(const Settings& settings);
+
 /// Both must outlive the routes.
 [[nodiscard]] std::vector<http::Route> webhook_routes(WebhookStore& webhooks,
                                                       const Settings& settings);

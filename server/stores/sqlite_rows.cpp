@@ -83,18 +83,33 @@ bool add_delivery(SqliteConnection& connection, const std::string& webhook,
                .run() > 0;
 }
 
+void add_webhook(SqliteConnection& connection, const Webhook& webhook, const std::string& job) {
+    Query(connection.prepared(
+              "INSERT INTO webhooks (id, owner, url, secret, events, created_ms, job) "
+              "VALUES (?, ?, ?, ?, ?, ?, ?)"))
+        .bind(webhook.id, webhook.owner, webhook.url, webhook.secret, webhook.events,
+              webhook.created_ms, job)
+        .run();
+}
+
+void erase_webhook(SqliteConnection& connection, const std::string& id) {
+    Query(connection.prepared("DELETE FROM deliveries WHERE webhook = ?")).bind(id).run();
+    Query(connection.prepared("DELETE FROM webhooks WHERE id = ?")).bind(id).run();
+}
+
 void note_change(SqliteConnection& connection, const JobRow& row) {
     Query(connection.prepared("INSERT INTO changes VALUES (?, ?, ?, ?, ?)"))
         .bind(row.seq, row.revision, now_ms(), name(row.state), row.attempt)
         .run();
 }
 
-/// A message to each webhook of the job's owner that wants this state.
+/// A message to each webhook of the job's owner, and to the job's own, that wants this state.
 void tell_webhooks(SqliteConnection& connection, const JobRow& row) {
     const std::string event = "job." + std::string(name(row.state));
-    Query query(connection.prepared(
-        "SELECT w.id, j.tag FROM webhooks w JOIN jobs j ON j.owner = w.owner "
-        "WHERE j.seq = ?1 AND instr(' ' || w.events || ' ', ' ' || ?2 || ' ') > 0"));
+    Query query(
+        connection.prepared("SELECT w.id, j.tag FROM webhooks w JOIN jobs j ON j.owner = w.owner "
+                            "AND w.job IN ('', j.id) WHERE j.seq = ?1 AND instr(' ' || w.events || "
+                            "' ', ' ' || ?2 || ' ') > 0"));
     query.bind(row.seq, event);
     std::vector<std::string> webhooks;
     std::string tag;
@@ -135,6 +150,9 @@ void change_state(SqliteConnection& connection, JobRow& row, JobState to,
 void erase_row(SqliteConnection& connection, const JobRow& row) {
     Query(connection.prepared("DELETE FROM changes WHERE seq = ?")).bind(row.seq).run();
     Query(connection.prepared("DELETE FROM idempotency WHERE id = ?")).bind(row.id).run();
+    // A client may choose an id that is a webhook's: only the job's own goes with it.
+    Query own(connection.prepared("SELECT 1 FROM webhooks WHERE id = ?1 AND job = ?1"));
+    if (own.bind(row.id).next()) erase_webhook(connection, row.id);
     Query(connection.prepared("DELETE FROM jobs WHERE seq = ?")).bind(row.seq).run();
 }
 

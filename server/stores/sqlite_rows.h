@@ -5,6 +5,7 @@
 
 #include "server/stores/job_store.h"
 #include "server/stores/sqlite.h"
+#include "server/stores/webhook_store.h"
 
 namespace lastflat::server {
 
@@ -44,6 +45,11 @@ inline constexpr int most_pending_messages = 1000;
 [[nodiscard]] bool add_delivery(SqliteConnection& connection, const std::string& webhook,
                                 const std::string& event, const nlohmann::ordered_json& data,
                                 int most_pending);
+
+/// `job`: the only one that it tells of; empty: every job of its owner.
+void add_webhook(SqliteConnection& connection, const Webhook& webhook, const std::string& job);
+/// Forgets its messages too.
+void erase_webhook(SqliteConnection& connection, const std::string& id);
 
 /// Forgets the job's row and all that hangs on it.
 void erase_row(SqliteConnection& connection, const JobRow& row);

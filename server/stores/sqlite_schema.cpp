@@ -126,6 +126,12 @@ CREATE TABLE deliveries (
 );
 CREATE INDEX deliveries_due ON deliveries (next_ms) WHERE next_ms IS NOT NULL;
 CREATE INDEX deliveries_by_webhook ON deliveries (webhook, seq);
+)sql",
+                                R"sql(
+-- A webhook for one job has that job's id, in both columns, and goes with it.
+ALTER TABLE webhooks ADD COLUMN job TEXT NOT NULL DEFAULT '';
+DROP INDEX webhooks_by_owner;
+CREATE INDEX webhooks_by_owner ON webhooks (owner, job);
 )sql"};
 
 }  // namespace

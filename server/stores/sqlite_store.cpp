@@ -33,6 +33,8 @@ std::optional<Admitted> earlier(SqliteConnection& connection, const NewJob& job)
         const bool same = same_id.text(0) == job.owner && same_id.text(1) == job.fingerprint;
         return Admitted{same ? Admission::repeated : Admission::id_taken, job.id};
     }
+    Query webhook(connection.prepared("SELECT 1 FROM webhooks WHERE id = ?"));
+    if (job.webhook && webhook.bind(job.id).next()) return Admitted{Admission::id_taken, job.id};
     if (job.idempotency_key.empty()) return std::nullopt;
     Query same_key(
         connection.prepared("SELECT fingerprint, id FROM idempotency WHERE owner = ? AND key = ?"));
@@ -53,6 +55,12 @@ void insert(SqliteConnection& connection, const NewJob& job) {
     row.seq = connection.database().getLastInsertRowid();
     row.revision = 1;
     note_change(connection, row);
+    if (job.webhook) {
+        add_webhook(connection,
+                    {job.id, job.owner, job.webhook->url, job.webhook->secret, job.webhook->events,
+                     now_ms()},
+                    job.id);
+    }
     if (job.idempotency_key.empty()) return;
     Query(connection.prepared("INSERT INTO idempotency VALUES (?, ?, ?, ?)"))
         .bind(job.owner, job.idempotency_key, job.fingerprint, job.id)

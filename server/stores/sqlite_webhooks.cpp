@@ -39,19 +39,14 @@ std::optional<Webhook> find_webhook(SqliteConnection& connection, const std::str
 }  // namespace
 
 void SqliteWebhooks::add(const Webhook& webhook) {
-    database_.write([&](SqliteConnection& connection) {
-        Query(connection.prepared("INSERT INTO webhooks VALUES (?, ?, ?, ?, ?, ?)"))
-            .bind(webhook.id, webhook.owner, webhook.url, webhook.secret, webhook.events,
-                  webhook.created_ms)
-            .run();
-    });
+    database_.write([&](SqliteConnection& connection) { add_webhook(connection, webhook, ""); });
 }
 
 std::vector<Webhook> SqliteWebhooks::list(const std::string& owner) {
     return database_.read([&](SqliteConnection& connection) {
         Query query(
             connection.prepared("SELECT id, owner, url, secret, events, created_ms FROM webhooks "
-                                "WHERE owner = ?1 OR ?1 = '' ORDER BY id"));
+                                "WHERE (owner = ?1 OR ?1 = '') AND job = '' ORDER BY id"));
         query.bind(owner);
         std::vector<Webhook> webhooks;
         while (query.next()) webhooks.push_back(webhook_of(query));
@@ -67,8 +62,8 @@ std::optional<Webhook> SqliteWebhooks::find(const std::string& owner, const std:
 bool SqliteWebhooks::remove(const std::string& owner, const std::string& id) {
     return database_.write([&](SqliteConnection& connection) {
         if (!find_webhook(connection, owner, id)) return false;
-        Query(connection.prepared("DELETE FROM deliveries WHERE webhook = ?")).bind(id).run();
-        return Query(connection.prepared("DELETE FROM webhooks WHERE id = ?")).bind(id).run() > 0;
+        erase_webhook(connection, id);
+        return true;
     });
 }
 

@@ -8,6 +8,7 @@
 
 namespace lastflat::server {
 
+/// One for a single job has the job's id and is forgotten with it.
 struct Webhook {
     std::string id, owner, url;
     std::string secret;  ///< "whsec_" and base64
@@ -38,6 +39,7 @@ class WebhookStore {
 public:
     virtual ~WebhookStore() = default;
     virtual void add(const Webhook& webhook) = 0;
+    /// Without those for single jobs.
     [[nodiscard]] virtual std::vector<Webhook> list(const std::string& owner) = 0;
     [[nodiscard]] virtual std::optional<Webhook> find(const std::string& owner,
                                                       const std::string& id) = 0;

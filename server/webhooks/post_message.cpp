@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "api/base64.h"
+#include "api/webhook_request.h"
 #include "server/crypto.h"
 #include "server/jobs/job.h"
 #include "server/webhooks/private_address.h"
@@ -16,7 +17,6 @@ namespace lastflat::server {
 namespace {
 
 constexpr long connect_ms = 5'000, whole_ms = 10'000;
-constexpr std::string_view secret_prefix = "whsec_";
 
 curl_socket_t open_public(void*, curlsocktype, curl_sockaddr* address) {
     if (is_private(address->addr)) return CURL_SOCKET_BAD;
@@ -32,7 +32,7 @@ std::size_t drop(const char*, std::size_t, std::size_t, void*) {
 std::string signature(const std::string& secret, const std::string& id, std::int64_t timestamp,
                       const std::string& payload) {
     const std::string key =
-        api::decode_base64(std::string_view(secret).substr(secret_prefix.size())).value_or("");
+        api::decode_base64(std::string_view(secret).substr(api::secret_prefix.size())).value_or("");
     return "v1," + api::encode_base64(
                        hmac_sha256(key, id + "." + std::to_string(timestamp) + "." + payload));
 }

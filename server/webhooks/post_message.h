@@ -24,5 +24,6 @@ struct PostOutcome {
 
 /// Whether a webhook may have this target: http or https, a host, no user name.
 [[nodiscard]] bool is_webhook_url(const std::string& url);
+inline constexpr char not_a_webhook_url[] = "must be an http or https address without a user name";
 
 }  // namespace lastflat::server

@@ -227,6 +227,41 @@ TEST_SUITE("api/json_submission") {
     }
 }
 
+TEST_SUITE("api/webhook_request") {
+    TEST_CASE("a job's own webhook needs an address and a secret that is one") {
+        const auto with = [](const std::string& webhook) {
+            return json_submission_from_json(R"({"model": {"data": ""}, "webhook": )" + webhook +
+                                             "}");
+        };
+        const std::string secret = "whsec_" + std::string(32, 'A');
+        const auto webhook =
+            with(R"({"url": "http://x/", "secret": ")" + secret + R"(", "events": ["job.failed"]})")
+                .webhook.value();
+        CHECK(webhook.url == "http://x/");
+        CHECK(webhook.secret == secret);
+        CHECK(webhook.events == "job.failed");
+        const auto pointer_of = [&](const std::string& text) {
+            try {
+                (void)with(text);
+            } catch (const InvalidRequest& error) {
+                return error.pointer();
+            }
+            return std::string("no error");
+        };
+        CHECK(pointer_of("{}") == "/webhook/secret");
+        CHECK(pointer_of(R"({"secret": ")" + secret + "\"}") == "/webhook/url");
+        for (const std::string& bad :
+             {std::string("whsec_"), "secret" + secret.substr(6), "whsec_" + std::string(30, 'A'),
+              "whsec_" + std::string(90, 'A'), "whsec_@" + secret})
+            CHECK(pointer_of(R"({"url": "http://x/", "secret": ")" + bad + "\"}") ==
+                  "/webhook/secret");
+        CHECK(pointer_of(R"({"url": "http://x/", "secret": ")" + secret +
+                         R"(", "events": ["job.lost"]})") == "/webhook/events/0");
+        CHECK(pointer_of(R"({"url": "http://x/", "secret": ")" + secret + R"(", "more": 1})") ==
+              "/webhook/more");
+    }
+}
+
 TEST_SUITE("api/job") {
     TEST_CASE("times are RFC 3339 in UTC, also on leap days") {
         CHECK(rfc3339(0) == "1970-01-01T00:00:00.000Z");

@@ -313,7 +313,7 @@ def main():
         server.stop()
     walk_keys(program, contract, example)
     walk_expiry(program, contract, example)
-    walk_webhooks(program, contract)
+    walk_webhooks(program, contract, example)
     walk_room(program, contract)
     walk_busy(program, contract)
     walk_broken(program, contract, example)

@@ -57,7 +57,7 @@ def walk_keys(program, contract, example):
             server.stop()
 
 
-def walk_webhooks(program, contract):
+def walk_webhooks(program, contract, example):
     """Making, testing, seeing and dropping webhooks; what is sent is looked at by webhooks.bats."""
     json_type = "Content-Type: application/json"
     hook = b'{"url": "http://127.0.0.1:9/", "events": ["job.failed"]}'
@@ -66,6 +66,10 @@ def walk_webhooks(program, contract):
         walk = Walk(server, contract)
         walk.expect(403, "webhooks_off", "POST", "/v1/webhooks", headers=[json_type], body=hook)
         walk.expect(403, "webhooks_off", "POST", "/v1/webhooks/{id}/test")
+        submission = json.dumps({**example, "webhook": {"url": "http://127.0.0.1:9/", "secret": "whsec_" + "A" * 32}}).encode()
+        own = "0f8fad5b-d9cb-469f-a165-70867728950e"
+        walk.expect(403, "webhooks_off", "POST", "/v1/jobs", headers=[json_type], body=submission)
+        walk.expect(403, "webhooks_off", "PUT", "/v1/jobs/{id}", id=own, headers=[json_type], body=submission)
     finally:
         server.stop()
     server = Server(program, "--webhooks", "public")
@@ -77,6 +81,13 @@ def walk_webhooks(program, contract):
         while not (sent := walk.expect(200, None, "GET", "/v1/webhooks/{id}/deliveries", id=id)["items"])[0].get("error"):
             assert time.monotonic() < end, sent
             time.sleep(0.05)
+        walk.expect(202, None, "PUT", "/v1/jobs/{id}", id=own, headers=[json_type], body=submission)
+        walk.wait_for(own, "succeeded")
+        assert walk.expect(200, None, "GET", "/v1/webhooks/{id}/deliveries", id=own)["items"][0]["event"] == "job.succeeded"
+        assert len(walk.expect(200, None, "GET", "/v1/webhooks")["items"]) == 1
+        walk.expect(409, "id_taken", "PUT", "/v1/jobs/{id}", id=id, headers=[json_type], body=submission)
+        walk.expect(422, "invalid_request", "POST", "/v1/jobs", headers=[json_type],
+                    body=submission.replace(b"whsec_", b"secret"))
         walk.expect(415, "media_type_unsupported", "POST", "/v1/webhooks", body=hook)
         walk.expect(422, "invalid_request", "POST", "/v1/webhooks", headers=[json_type], body=b'{"url": "ftp://x/"}')
         for _ in range(15):

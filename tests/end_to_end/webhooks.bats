@@ -44,13 +44,9 @@ register() {
 }
 got() { [[ $(wc -l < "$BATS_TEST_TMPDIR/got" 2> "$BATS_TEST_TMPDIR/none" || echo 0) -ge $1 ]]; }
 
-@test "a finished job is told, signed so that the receiver can check it" {
-    start_receiver 204
-    start_server --webhooks any
-    register "$target"
-    flatten "$sample/last.obj" "$sample/last.request.json"
-    wait_until 5 got 1
-    python3 - "$BATS_TEST_TMPDIR/got" "$secret" "${job##*/}" <<'PYTHON'
+# is_signed SECRET JOB: the first message tells of the job's success, and its signature is right.
+is_signed() {
+    python3 - "$BATS_TEST_TMPDIR/got" "$1" "$2" <<'PYTHON'
 import base64, hashlib, hmac, json, sys, time
 got, secret, job = json.loads(open(sys.argv[1]).readline()), sys.argv[2], sys.argv[3]
 headers, body = got["headers"], got["body"]
@@ -62,10 +58,44 @@ assert headers["content-type"] == "application/json"
 message = json.loads(body)
 assert message["type"] == "job.succeeded" and message["data"]["id"] == job, message
 PYTHON
+}
+
+@test "a finished job is told, signed so that the receiver can check it" {
+    start_receiver 204
+    start_server --webhooks any
+    register "$target"
+    flatten "$sample/last.obj" "$sample/last.request.json"
+    wait_until 5 got 1
+    is_signed "$secret" "${job##*/}"
     ask "$url/v1/webhooks/$webhook/deliveries"
     assert_equal "$(jq -c '[.items[0].delivered, .items[0].status, .items[0].attempt]' "$body")" '[true,204,1]'
     ask "$url/v1/webhooks"
     assert_equal "$(jq -c '[(.items | length), (.items[0] | has("secret"))]' "$body")" '[1,false]'
+}
+
+@test "a job may bring its own webhook, signed with the secret that it brings" {
+    start_receiver 204
+    start_server --webhooks any
+    secret=whsec_$(head -c 32 /dev/urandom | base64)
+    python3 - "$sample" "$target" "$secret" > "$BATS_TEST_TMPDIR/submission.json" <<'PYTHON'
+import base64, json, sys
+folder, target, secret = sys.argv[1:]
+print(json.dumps({"model": {"data": base64.b64encode(open(folder + "/last.obj", "rb").read()).decode()},
+                  "request": json.load(open(folder + "/last.request.json")), "webhook": {"url": target, "secret": secret}}))
+PYTHON
+    ask -H 'Content-Type: application/json' --data-binary "@$BATS_TEST_TMPDIR/submission.json" "$url/v1/jobs"
+    assert_equal "$status" 202
+    local own
+    own=$(jq -r .id "$body")
+    flatten "$sample/last.obj" "$sample/last.request.json"  # another job, that asks for no message
+    wait_until 5 got 1
+    is_signed "$secret" "$own"
+    assert_equal "$(wc -l < "$BATS_TEST_TMPDIR/got")" 1
+    ask "$url/v1/webhooks/$own/deliveries"
+    assert_equal "$(jq -c '[.items[0].delivered, .items[0].event]' "$body")" '[true,"job.succeeded"]'
+    ask -X DELETE "$url/v1/jobs/$own"
+    ask "$url/v1/webhooks/$own"
+    assert_equal "$status" 404
 }
 
 @test "what does not arrive is tried again with the same id, and the list says why" {

@@ -123,6 +123,38 @@ TEST_SUITE("server/webhooks/dispatcher") {
         CHECK_FALSE(webhooks.claim(1000).has_value());
     }
 
+    TEST_CASE("a job's own webhook is told of that job alone, and goes with it") {
+        test::TestStore s;
+        SqliteWebhooks webhooks(s.database);
+        NewJob job = test::new_job("A", "key");
+        job.webhook = JobWebhook{"http://example.com/", "whsec_", "job.canceled"};
+        REQUIRE(s.add(job) == Admission::queued);
+        REQUIRE(s.add(job) == Admission::repeated);
+        REQUIRE(s.add(test::new_job("B", "key")) == Admission::queued);
+        for (const char* id : {"A", "B"}) CHECK(s.store.cancel("key", id) == JobState::canceled);
+        REQUIRE(webhooks.deliveries("A").size() == 1);
+        CHECK(webhooks.list("key").empty());
+        CHECK(webhooks.find("key", "A").value().url == "http://example.com/");
+        CHECK_FALSE(webhooks.find("another key", "A").has_value());
+        CHECK(webhooks.claim(1000).value().delivery.event == "job.canceled");
+        CHECK(s.store.remove("key", "A"));
+        CHECK_FALSE(webhooks.find("key", "A").has_value());
+        CHECK(webhooks.deliveries("A").empty());
+    }
+
+    TEST_CASE("a job that has the id of a webhook does not touch it") {
+        test::TestStore s;
+        SqliteWebhooks webhooks(s.database);
+        webhooks.add(webhook("A", "key", "job.failed"));
+        NewJob job = test::new_job("A", "another key");
+        job.webhook = JobWebhook{"http://example.com/", "whsec_", "job.failed"};
+        CHECK(s.add(job) == Admission::id_taken);
+        job.webhook.reset();
+        REQUIRE(s.add(job) == Admission::queued);
+        CHECK(s.store.remove("another key", "A"));
+        CHECK(webhooks.find("key", "A").has_value());
+    }
+
     TEST_CASE("what fails is tried again later, what arrives is not, and 410 ends it") {
         test::TestStore s;
         SqliteWebhooks webhooks(s.database);
