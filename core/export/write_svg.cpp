@@ -76,6 +76,9 @@ private:
 /// between them.
 std::string stretch_paths(const FlatRegion& flat, const Points2& places, const Page& page) {
     std::array<std::string, 2 * classes + 1> paths;
+    std::vector<std::string> corners;  // each is a corner of about six triangles
+    corners.reserve(places.size());
+    for (const Vec2& p : places) corners.push_back(page.point(p));
     const auto stretches = signed_stretches(flat.region, flat.chart.uv);
     for (std::size_t t = 0; t < stretches.size(); ++t) {
         const double share = std::clamp((stretches[t] - 1.0) / colour_range, -1.0, 1.0);
@@ -83,7 +86,7 @@ std::string stretch_paths(const FlatRegion& flat, const Points2& places, const P
         const Triangle& triangle = flat.region.triangles[t];
         for (std::size_t i = 0; i < 3; ++i) {
             path += i == 0 ? 'M' : 'L';
-            path += page.point(places[static_cast<std::size_t>(triangle[i])]);
+            path += corners[at(triangle[i])];
         }
         path += "z";
     }
