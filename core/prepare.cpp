@@ -131,7 +131,7 @@ private:
     std::string new_name() {
         const Curves& curves = cut_.inserted.curves;
         for (;;) {
-            const std::string name = "seam_" + std::to_string(++number_);
+            std::string name = "seam_" + std::to_string(++number_);
             if (std::none_of(curves.begin(), curves.end(),
                              [&](const Curve& curve) { return curve.name == name; }))
                 return name;

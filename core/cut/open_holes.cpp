@@ -2,7 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -50,7 +49,7 @@ std::optional<Index> rear_vertex(const Region& region, const std::vector<Index>&
         spread += d * d.transpose();
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread);
-    const Eigen::Vector3d squares = eigen.eigenvalues();
+    const Eigen::Vector3d& squares = eigen.eigenvalues();
     if (squares[2] < long_from * long_from * squares[1]) return std::nullopt;
     Vec3 axis = eigen.eigenvectors().col(2);
     const double off = axis.dot(centre_of(region, hole) - centre);
@@ -212,7 +211,7 @@ private:
     const Progress& progress_;
     const std::vector<std::vector<Index>> loops_;
     std::vector<Index> loop_of_;  ///< per vertex; -1: inside
-    mutable DisjointSets joined_;
+    DisjointSets joined_;
     std::size_t hole_ = 0;
     double curvature_ = 0.0;
     std::vector<HoleSeam> seams_;

@@ -9,7 +9,7 @@ namespace {
 /// An edge of a run: from its vertex `at` to the next.
 struct RunEdge {
     std::size_t run, at;
-    friend auto operator<=>(const RunEdge&, const RunEdge&) = default;
+    friend bool operator==(const RunEdge&, const RunEdge&) = default;
 };
 
 class Sides {

@@ -118,6 +118,24 @@ bool remove_caps(Faces& faces, RepairNote& note) {
     return true;
 }
 
+struct Neighbour {
+    Index triangle;
+    bool against;  ///< winds the other way
+};
+
+/// Per triangle those across its edges that belong to two.
+std::vector<std::vector<Neighbour>> neighbours_of(const std::vector<Triangle>& triangles) {
+    std::vector<std::vector<Neighbour>> neighbours(triangles.size());
+    for_each_edge(sides_by_edge(triangles), [&](auto first, auto last) {
+        if (last - first != 2) return;
+        const Side &a = *first, &b = *(first + 1);
+        const bool against = a.forward == b.forward;
+        neighbours[at(a.triangle)].push_back({b.triangle, against});
+        neighbours[at(b.triangle)].push_back({a.triangle, against});
+    });
+    return neighbours;
+}
+
 }  // namespace
 
 void Faces::rename() {
@@ -148,18 +166,7 @@ void clean_faces(Faces& faces, std::vector<Repair>& repairs) {
 
 void wind_alike(Faces& faces, std::vector<Repair>& repairs) {
     const std::size_t count = faces.triangles.size();
-    struct Neighbour {
-        Index triangle;
-        bool against;  ///< winds the other way
-    };
-    std::vector<std::vector<Neighbour>> neighbours(count);
-    for_each_edge(sides_by_edge(faces.triangles), [&](auto first, auto last) {
-        if (last - first != 2) return;
-        const Side &a = *first, &b = *(first + 1);
-        const bool against = a.forward == b.forward;
-        neighbours[static_cast<std::size_t>(a.triangle)].push_back({b.triangle, against});
-        neighbours[static_cast<std::size_t>(b.triangle)].push_back({a.triangle, against});
-    });
+    const auto neighbours = neighbours_of(faces.triangles);
     std::vector<signed char> turned(count, -1);
     RepairNote note;
     for (std::size_t seed = 0; seed < count; ++seed) {
