@@ -136,7 +136,10 @@ def request():
 def request_seeds():
     seed("request_json", "whole", json.dumps(request()))
     model = base64.b64encode(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").decode()
-    seed("request_json", "submission", json.dumps({"model": {"data": model}, "request": request()}))
+    seed("request_json", "submission", json.dumps({"model": {"data": model}, "request": request(),
+                                                    "webhook": {"url": "http://x/", "secret": "whsec_" + 32 * "A"}}))
+    seed("request_json", "map", json.dumps({"to_last": {"region": "a", "points": [[1, 2]], "polylines": [[[0, 0], [1, 1]]]},
+                                             "to_pattern": {"points": [[1, 2, 3]]}}))
     seed("request_json", "mean_value", '{"method":{"name":"mean_value","border":"square"}}')
     seed("request_json", "twice", '{"units":"mm","units":"cm"}')
     seed("request_json", "numbers", '{"curves":{"a":{"vertices":[0,-1,2147483648,1.5,1e99]}}}')

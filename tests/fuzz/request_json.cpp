@@ -1,6 +1,7 @@
-// Any bytes as a constraint JSON, alone and beside a model. An error must name a JSON pointer, and
-// a problem document must be able to carry its text.
+// Any bytes as a constraint JSON, alone and beside a model, and as what is to be mapped. An error
+// must name a JSON pointer, and a problem document must be able to carry its text.
 #include "api/flatten_request.h"
+#include "api/map_request.h"
 #include "api/object_reader.h"
 #include "api/problem.h"
 #include "tests/fuzz/mesh_checks.h"
@@ -36,5 +37,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto text = fuzz::text(data, size);
     read_or_refuse([&] { return api::flatten_request_from_json(text, small_limits()); });
     read_or_refuse([&] { return api::json_submission_from_json(text, small_limits()); });
+    read_or_refuse([&] { return api::map_request_from_json(text); });
     return 0;
 }
