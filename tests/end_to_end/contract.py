@@ -4,7 +4,8 @@
     LASTFLAT=build/release/lastflat tests/end_to_end/contract.py
 
 Starts servers, provokes every path, method and status that is declared, and validates every answer (contract_check.py).
-Ends with 1 if an answer breaks the contract or a declared one was never seen. Without python3-jsonschema it says so and ends with 77 (skipped).
+Ends with 1 if an answer breaks the contract or a declared one was never seen. Without python3-jsonschema it says so and
+ends with 77 (skipped).
 """
 
 import base64
