@@ -2,7 +2,7 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
-#include "server/observe/log.h"
+#include "server/support/log.h"
 
 int main(int argc, char** argv) {
     lastflat::server::start_log();

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "server/crypto.h"
+#include "server/support/crypto.h"
 
 namespace lastflat::server {
 

@@ -4,7 +4,7 @@
 
 #include "server/jobs/job.h"
 #include "server/routes/answers.h"
-#include "server/stores/files.h"
+#include "server/support/files.h"
 
 namespace lastflat::server {
 namespace {

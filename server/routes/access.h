@@ -4,9 +4,9 @@
 #include <map>
 #include <mutex>
 
+#include "server/cli/settings.h"
 #include "server/http/http.h"
-#include "server/settings.h"
-#include "server/stores/key_store.h"
+#include "server/jobs/key_store.h"
 
 namespace lastflat::server {
 

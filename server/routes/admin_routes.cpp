@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/routes/answers.h"
-#include "server/version.h"
+#include "server/support/version.h"
 
 namespace lastflat::server {
 namespace {

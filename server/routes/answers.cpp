@@ -5,8 +5,8 @@
 
 #include "api/object_reader.h"
 #include "core/error.h"
-#include "server/problem_map.h"
-#include "server/stores/blob_store.h"
+#include "server/storage/blob_store.h"
+#include "server/worker/problem_map.h"
 
 namespace lastflat::server {
 namespace {

@@ -4,11 +4,11 @@
 
 #include "api/base64.h"
 #include "api/job.h"
-#include "server/crypto.h"
 #include "server/routes/answers.h"
 #include "server/routes/inquire.h"
 #include "server/routes/submission.h"
 #include "server/routes/submit.h"
+#include "server/support/crypto.h"
 
 namespace lastflat::server {
 namespace {

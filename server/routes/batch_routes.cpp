@@ -4,10 +4,10 @@
 
 #include "api/object_reader.h"
 #include "api/problem_json.h"
-#include "server/problem_map.h"
 #include "server/routes/answers.h"
 #include "server/routes/job_view.h"
 #include "server/routes/submit.h"
+#include "server/worker/problem_map.h"
 
 namespace lastflat::server {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "server/crypto.h"
-#include "server/documents.h"
 #include "server/routes/answers.h"
+#include "server/routes/documents.h"
+#include "server/support/crypto.h"
 
 namespace lastflat::server {
 namespace {

@@ -4,12 +4,12 @@
 
 #include "api/base64.h"
 #include "api/job.h"
-#include "server/crypto.h"
 #include "server/http/text.h"
 #include "server/routes/answers.h"
 #include "server/routes/job_view.h"
 #include "server/routes/submit.h"
 #include "server/routes/waiting_place.h"
+#include "server/support/crypto.h"
 
 namespace lastflat::server {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "api/job.h"
-#include "server/crypto.h"
 #include "server/routes/answers.h"
+#include "server/support/crypto.h"
 
 namespace lastflat::server {
 

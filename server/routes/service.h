@@ -7,16 +7,16 @@
 #include <set>
 #include <string>
 
+#include "server/cli/settings.h"
+#include "server/jobs/asset_store.h"
 #include "server/jobs/estimate.h"
+#include "server/jobs/job_store.h"
 #include "server/jobs/job_watch.h"
-#include "server/jobs/runners.h"
-#include "server/jobs/worker_pool.h"
-#include "server/observe/metrics.h"
-#include "server/settings.h"
-#include "server/stores/asset_store.h"
-#include "server/stores/blob_store.h"
-#include "server/stores/job_store.h"
-#include "server/stores/key_store.h"
+#include "server/jobs/key_store.h"
+#include "server/runner/runners.h"
+#include "server/runner/worker_pool.h"
+#include "server/storage/blob_store.h"
+#include "server/support/metrics.h"
 
 namespace lastflat::server {
 

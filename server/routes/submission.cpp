@@ -6,8 +6,8 @@
 #include "api/flatten_request.h"
 #include "api/object_reader.h"
 #include "server/routes/side_files.h"
-#include "server/translate.h"
 #include "server/webhooks/post_message.h"
+#include "server/worker/translate.h"
 
 namespace lastflat::server {
 namespace {

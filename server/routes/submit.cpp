@@ -1,9 +1,9 @@
 #include "server/routes/submit.h"
 
-#include "server/crypto.h"
-#include "server/duration.h"
 #include "server/routes/job_view.h"
 #include "server/routes/webhook_routes.h"
+#include "server/support/crypto.h"
+#include "server/support/duration.h"
 
 namespace lastflat::server {
 namespace {

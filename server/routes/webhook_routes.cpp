@@ -6,9 +6,9 @@
 #include "api/job.h"
 #include "api/object_reader.h"
 #include "api/webhook_request.h"
-#include "server/crypto.h"
 #include "server/jobs/job.h"
 #include "server/routes/answers.h"
+#include "server/support/crypto.h"
 #include "server/webhooks/post_message.h"
 
 namespace lastflat::server {

@@ -1,9 +1,9 @@
 // Webhooks: who wants to be told, and what was sent.
 #pragma once
 
+#include "server/cli/settings.h"
 #include "server/http/http.h"
-#include "server/settings.h"
-#include "server/stores/webhook_store.h"
+#include "server/jobs/webhook_store.h"
 
 namespace lastflat::server {
 

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "server/jobs/job.h"
-#include "server/observe/log.h"
+#include "server/support/log.h"
 
 namespace lastflat::server {
 namespace {

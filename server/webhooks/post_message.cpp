@@ -9,8 +9,8 @@
 
 #include "api/base64.h"
 #include "api/webhook_request.h"
-#include "server/crypto.h"
 #include "server/jobs/job.h"
+#include "server/support/crypto.h"
 #include "server/webhooks/private_address.h"
 
 namespace lastflat::server {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "server/stores/webhook_store.h"
+#include "server/jobs/webhook_store.h"
 
 namespace lastflat::server {
 

@@ -5,8 +5,8 @@
 #include "api/problem_json.h"
 #include "api/report_json.h"
 #include "core/inspect.h"
-#include "server/problem_map.h"
-#include "server/translate.h"
+#include "server/worker/problem_map.h"
+#include "server/worker/translate.h"
 
 namespace lastflat::server {
 namespace {

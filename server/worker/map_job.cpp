@@ -6,7 +6,7 @@
 #include "api/map_request.h"
 #include "api/problem_json.h"
 #include "core/map/pattern_map.h"
-#include "server/problem_map.h"
+#include "server/worker/problem_map.h"
 
 namespace lastflat::server {
 namespace {

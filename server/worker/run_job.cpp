@@ -5,9 +5,9 @@
 
 #include "core/export/write_model.h"
 #include "core/export/write_svg.h"
-#include "server/problem_map.h"
-#include "server/translate.h"
 #include "server/worker/gzip.h"
+#include "server/worker/problem_map.h"
+#include "server/worker/translate.h"
 
 namespace lastflat::server {
 

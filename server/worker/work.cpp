@@ -12,15 +12,15 @@
 
 #include "api/flatten_request.h"
 #include "api/problem_json.h"
-#include "server/crypto.h"
 #include "server/jobs/result_parts.h"
-#include "server/problem_map.h"
-#include "server/stores/files.h"
-#include "server/translate.h"
+#include "server/protocol/result_pack.h"
+#include "server/protocol/work_messages.h"
+#include "server/support/crypto.h"
+#include "server/support/files.h"
 #include "server/worker/inspect_job.h"
 #include "server/worker/map_job.h"
-#include "server/worker/result_pack.h"
-#include "server/worker/work_messages.h"
+#include "server/worker/problem_map.h"
+#include "server/worker/translate.h"
 
 namespace lastflat::server {
 namespace {

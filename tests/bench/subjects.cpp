@@ -5,7 +5,7 @@
 
 #include "api/flatten_request.h"
 #include "api/object_reader.h"
-#include "server/translate.h"
+#include "server/worker/translate.h"
 #include "tests/bench/bench.h"
 #include "tests/helpers/face.h"
 #include "tests/helpers/sample.h"

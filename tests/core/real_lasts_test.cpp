@@ -12,7 +12,7 @@
 
 #include "api/flatten_request.h"
 #include "core/flatten.h"
-#include "server/translate.h"
+#include "server/worker/translate.h"
 #include "tests/helpers/curve_distance.h"
 
 namespace lastflat {

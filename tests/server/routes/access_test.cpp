@@ -3,10 +3,10 @@
 #include <doctest/doctest.h>
 
 #include "api/job.h"
-#include "server/duration.h"
-#include "server/observe/metrics.h"
 #include "server/routes/answers.h"
-#include "server/stores/sqlite_accounts.h"
+#include "server/storage/sqlite_accounts.h"
+#include "server/support/duration.h"
+#include "server/support/metrics.h"
 #include "tests/helpers/temporary_folder.h"
 
 namespace lastflat::server {
@@ -124,7 +124,7 @@ TEST_SUITE("server/routes/answers") {
     }
 }
 
-TEST_SUITE("server/duration") {
+TEST_SUITE("server/support/duration") {
     TEST_CASE("durations are numbers with a unit") {
         CHECK(duration_ms("90") == 90'000);
         CHECK(duration_ms("90s") == 90'000);
@@ -146,7 +146,7 @@ TEST_SUITE("server/duration") {
     }
 }
 
-TEST_SUITE("server/observe/metrics") {
+TEST_SUITE("server/support/metrics") {
     TEST_CASE("counters add, histograms cumulate, labels are escaped") {
         Metrics metrics;
         metrics.count("lastflat_http_requests_total", {{"route", "a\"b\\c\nd"}});

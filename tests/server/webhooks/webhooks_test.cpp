@@ -5,10 +5,10 @@
 #include <cstring>
 
 #include "server/jobs/job.h"
-#include "server/stores/sqlite_webhooks.h"
+#include "server/storage/sqlite_webhooks.h"
 #include "server/webhooks/dispatcher.h"
 #include "server/webhooks/private_address.h"
-#include "tests/server/stores/test_store.h"
+#include "tests/server/storage/test_store.h"
 
 namespace lastflat::server {
 namespace {

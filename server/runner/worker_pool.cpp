@@ -1,0 +1,252 @@
+#include "server/runner/worker_pool.h"
+
+#include <nlohmann/json.hpp>
+
+#include "api/problem_json.h"
+
+namespace lastflat::server {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds storage_pause{1000};
+/// A row that another process has put into the queue is found at the latest then.
+constexpr std::chrono::milliseconds look_again{2000};
+
+std::string problem_text(int status, const char* code, const std::string& detail) {
+    return api::to_json(api::Problem{status, code, "", detail, std::nullopt, std::nullopt});
+}
+
+}  // namespace
+
+std::string worker_lost_problem() {
+    return problem_text(500, "worker_lost",
+                        "the job was begun three times and its worker was lost each time; post it "
+                        "again, or send a coarser model");
+}
+
+namespace {
+
+/// The outcome of a run that ended by itself or by its own fault; nothing: it may be run again.
+std::optional<JobOutcome> outcome_of(const Claim& claim, ProcessEnd& end) {
+    JobOutcome outcome = std::move(end.outcome);
+    switch (end.kind) {
+        case ProcessEnd::Kind::finished: return outcome;
+        case ProcessEnd::Kind::crashed:
+            outcome.error = problem_text(500, "worker_crashed",
+                                         "the program broke on this model; the service goes on. "
+                                         "Send the model to those who run it");
+            return outcome;
+        case ProcessEnd::Kind::timed_out:
+            outcome.error = problem_text(422, "job_too_slow",
+                                         "the job took longer than a job may (the limit "
+                                         "--job-time); send a coarser model");
+            return outcome;
+        case ProcessEnd::Kind::lost:
+            if (claim.attempt < most_attempts) return std::nullopt;
+            outcome.error = worker_lost_problem();
+            return outcome;
+        case ProcessEnd::Kind::retry:
+            if (claim.retries < most_retries) return std::nullopt;
+            outcome.error = problem_text(507, "storage_full",
+                                         "there was no room on the disk for the result, for an "
+                                         "hour; post the job again when there is");
+            return outcome;
+        case ProcessEnd::Kind::stopped: return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+Release why_released(ProcessEnd::Kind kind) {
+    if (kind == ProcessEnd::Kind::lost) return Release::lost;
+    return kind == ProcessEnd::Kind::retry ? Release::later : Release::unfinished;
+}
+
+}  // namespace
+
+void drop_unneeded(const BlobStore& blobs, JobStore& store,
+                   const std::vector<std::string>& digests) {
+    blobs.remove_unneeded(digests,
+                          [&](const std::string& digest) { return store.needs_blob(digest); });
+}
+
+WorkerPool::WorkerPool(JobStore& store, BlobStore& blobs, JobWatch& watch, PoolOptions options,
+                       JobRunner runner, RunLog log)
+    : store_(store),
+      blobs_(blobs),
+      watch_(watch),
+      options_(std::move(options)),
+      runner_(std::move(runner)),
+      log_(std::move(log)) {
+    for (std::size_t i = 0; i < options_.workers; ++i) threads_.emplace_back([this] { work(); });
+}
+
+WorkerPool::~WorkerPool() {
+    stop(std::chrono::milliseconds(0));
+}
+
+void WorkerPool::wake() {
+    {
+        const std::scoped_lock lock(mutex_);
+        ++wakes_;
+    }
+    // All: threads that wait for something else would take a single call for theirs.
+    changed_.notify_all();
+}
+
+void WorkerPool::cancel(const std::string& id) {
+    const std::scoped_lock lock(mutex_);
+    for (auto& [token, run] : running_) {
+        if (run.id == id) run.canceled = true;
+    }
+}
+
+std::size_t WorkerPool::busy() const {
+    const std::scoped_lock lock(mutex_);
+    return running_.size();
+}
+
+void WorkerPool::drain() {
+    const std::scoped_lock lock(mutex_);
+    draining_ = true;
+    changed_.notify_all();
+}
+
+void WorkerPool::stop(std::chrono::milliseconds grace) {
+    drain();
+    {
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(lock, grace, [&] { return running_.empty(); });
+        stopping_ = true;
+        changed_.notify_all();
+    }
+    for (std::thread& thread : threads_) thread.join();
+    threads_.clear();
+}
+
+void WorkerPool::work() {
+    std::unique_lock lock(mutex_);
+    while (!draining_) {
+        // The store may be slow: what others want of this pool must not wait for it.
+        const std::uint64_t seen = wakes_;
+        lock.unlock();
+        std::optional<Claim> claim = try_claim();
+        lock.lock();
+        if (!claim) {
+            changed_.wait_for(lock, look_again, [&] { return draining_ || wakes_ != seen; });
+            continue;
+        }
+        running_.emplace(claim->lease.token, Run{claim->lease.id});
+        lock.unlock();
+        watch_.changed(claim->lease.id);
+        try {
+            run(*claim);
+        } catch (const std::exception& error) {
+            // The lease will end, and the job be begun again.
+            log_({*claim, "lost", error.what(), 0.0, {}});
+        }
+        lock.lock();
+        running_.erase(claim->lease.token);
+        changed_.notify_all();
+    }
+}
+
+std::optional<Claim> WorkerPool::try_claim() {
+    try {
+        return store_.claim(options_.lease_ms);
+    } catch (const std::exception&) {
+        return std::nullopt;  // it shows in every request; here it only means: later
+    }
+}
+
+bool WorkerPool::must_stop(const Claim& claim, std::int64_t& renewed_ms) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (stopping_ || running_.at(claim.lease.token).canceled) return true;
+    }
+    const std::int64_t age = now_ms() - renewed_ms;
+    if (age < options_.lease_ms / 3) return false;
+    try {
+        if (store_.renew(claim.lease, options_.lease_ms) != Hold::held) return true;
+        renewed_ms = now_ms();
+    } catch (const StoreError&) {
+        return age > options_.lease_ms;  // by then somebody else may have it
+    }
+    return false;
+}
+
+void WorkerPool::run(const Claim& claim) {
+    const auto begun = Clock::now();
+    auto stage_begun = begun;
+    std::string stage = "start";
+    RunReport report;
+    report.claim = claim;
+    // The first look renews: a cancel may have come before this run was known.
+    std::int64_t renewed_ms = now_ms() - options_.lease_ms / 3;
+    const ProcessControl control{[&](const std::string& next, double fraction) {
+                                     const auto now = Clock::now();
+                                     report.stage_seconds[stage] +=
+                                         std::chrono::duration<double>(now - stage_begun).count();
+                                     stage = next;
+                                     stage_begun = now;
+                                     watch_.reach(claim.lease.id, next, fraction);
+                                 },
+                                 [&] { return must_stop(claim, renewed_ms); }};
+    const std::filesystem::path file =
+        options_.work / (claim.lease.id + "." + std::to_string(claim.attempt));
+    ProcessEnd end;
+    try {
+        end = runner_(claim, file, control);
+    } catch (const std::exception& error) {
+        end.kind = ProcessEnd::Kind::retry;
+        end.why = error.what();
+    }
+    report.why = end.why;
+    const auto state = settle(claim, end, file);
+    report.outcome = state ? name(*state) : "lost";
+    std::error_code gone;
+    std::filesystem::remove(file, gone);
+    report.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+    watch_.ended(claim.lease.id);
+    watch_.changed(claim.lease.id);
+    log_(report);
+}
+
+bool WorkerPool::persist(const std::function<void()>& change) {
+    for (;;) {
+        try {
+            change();
+            return true;
+        } catch (const StoreError&) {
+            // The lease may end meanwhile: then the change is refused, and that is right.
+            std::unique_lock lock(mutex_);
+            if (changed_.wait_for(lock, storage_pause, [&] { return stopping_; })) return false;
+        }
+    }
+}
+
+std::optional<JobState> WorkerPool::settle(const Claim& claim, ProcessEnd& end,
+                                           const std::filesystem::path& file) {
+    std::optional<JobState> state;
+    const auto outcome = outcome_of(claim, end);
+    const bool kept = persist([&] {
+        const auto pin = blobs_.pin();
+        if (!outcome) {
+            state = store_.release(claim.lease, why_released(end.kind));
+            return;
+        }
+        if (!outcome->result.empty()) blobs_.adopt(file, outcome->result);
+        state = store_.finish(claim.lease, *outcome);
+    });
+    if (!kept) return std::nullopt;
+    std::vector<std::string> blobs{claim.model};
+    if (outcome && !outcome->result.empty()) blobs.push_back(outcome->result);
+    try {
+        drop_unneeded(blobs_, store_, blobs);
+    } catch (const StoreError&) {
+        // They stay until the next start sweeps them.
+    }
+    return state;
+}
+
+}  // namespace lastflat::server

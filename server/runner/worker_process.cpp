@@ -1,0 +1,246 @@
+#include "server/runner/worker_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace lastflat::server {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int look_ms = 50;
+constexpr std::size_t most_message_bytes = 64u << 20;
+constexpr std::size_t most_said_bytes = 4096;
+
+[[noreturn]] void fail(const char* what) {
+    throw std::system_error(errno, std::generic_category(), what);
+}
+
+class Descriptor {
+public:
+    explicit Descriptor(int fd) : fd_(fd) {}
+    ~Descriptor() { close(); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    [[nodiscard]] int fd() const { return fd_; }
+    void close() {
+        if (fd_ >= 0) ::close(std::exchange(fd_, -1));
+    }
+
+private:
+    int fd_;
+};
+
+struct Pipe {
+    Pipe() : Pipe(make()) {}
+    Descriptor from, to;
+
+private:
+    explicit Pipe(std::array<int, 2> ends) : from(ends[0]), to(ends[1]) {}
+    static std::array<int, 2> make() {
+        std::array<int, 2> ends{};
+        if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("pipe2");
+        ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
+        return ends;
+    }
+};
+
+/// A file without a name: a pipe would block on a worker that does not read.
+int order_file(const WorkOrder& order) {
+    const int fd = ::memfd_create("order", MFD_CLOEXEC);
+    if (fd < 0) fail("memfd_create");
+    const std::string line = to_line(order);
+    std::size_t done = 0;
+    while (done < line.size()) {
+        const ssize_t written = ::write(fd, line.data() + done, line.size() - done);
+        if (written <= 0) {
+            ::close(fd);
+            fail("write");
+        }
+        done += static_cast<std::size_t>(written);
+    }
+    ::lseek(fd, 0, SEEK_SET);
+    return fd;
+}
+
+pid_t spawn(const std::string& program, int in, int out, int errors) {
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawnattr_init(&attributes);
+    posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
+    sigset_t none;
+    sigemptyset(&none);
+    sigset_t all;
+    sigfillset(&all);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &all);
+    // A group of its own: the terminal's Ctrl-C is for the service, which then decides.
+    posix_spawnattr_setflags(
+        &attributes,
+        static_cast<short>(POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP));
+    std::string name = "lastflat-work";
+    std::array<char*, 2> arguments{name.data(), nullptr};
+    std::array<char*, 1> environment{nullptr};
+    pid_t process = -1;
+    const int error = ::posix_spawn(&process, program.c_str(), &actions, &attributes,
+                                    arguments.data(), environment.data());
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    if (error != 0) {
+        errno = error;
+        fail("posix_spawn");
+    }
+    return process;
+}
+
+/// A started worker: ended and waited for at the latest when this goes.
+class Worker {
+public:
+    Worker(const WorkOrder& order, const std::string& program) {
+        const Descriptor in(order_file(order));
+        process_ = spawn(program, in.fd(), messages_.to.fd(), errors_.to.fd());
+        messages_.to.close();
+        errors_.to.close();
+    }
+    ~Worker() {
+        if (process_ > 0) {
+            kill();
+            (void)wait();
+        }
+    }
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
+
+    void kill() const { ::kill(process_, SIGKILL); }
+
+    /// Reads what is there; false at the end of both streams.
+    [[nodiscard]] bool read() {
+        std::array<pollfd, 2> watched{
+            {{messages_.from.fd(), POLLIN, 0}, {errors_.from.fd(), POLLIN, 0}}};
+        ::poll(watched.data(), watched.size(), look_ms);
+        if (watched[0].revents != 0) take(messages_.from, messages);
+        if (watched[1].revents != 0) take(errors_.from, said);
+        if (said.size() > most_said_bytes) said.resize(most_said_bytes);
+        return messages_.from.fd() >= 0 || errors_.from.fd() >= 0;
+    }
+    /// The status of `waitpid`.
+    [[nodiscard]] int wait() {
+        int status = 0;
+        while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+        }
+        process_ = -1;
+        return status;
+    }
+
+    std::string messages;  ///< not yet taken
+    std::string said;      ///< on standard error
+
+private:
+    static void take(Descriptor& from, std::string& into) {
+        std::array<char, 64u << 10> step;
+        const ssize_t got = ::read(from.fd(), step.data(), step.size());
+        if (got > 0) into.append(step.data(), static_cast<std::size_t>(got));
+        if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) from.close();
+    }
+
+    Pipe messages_, errors_;
+    pid_t process_ = -1;
+};
+
+class Supervision {
+public:
+    Supervision(Worker& worker, const ProcessControl& control)
+        : worker_(worker), control_(control) {}
+
+    /// Takes the complete lines. False: what comes is no message.
+    [[nodiscard]] bool follow() {
+        std::size_t begin = 0;
+        for (std::size_t end; (end = worker_.messages.find('\n', begin)) != std::string::npos;
+             begin = end + 1) {
+            const auto message =
+                work_message_of(std::string_view(worker_.messages).substr(begin, end - begin));
+            if (!message) return false;
+            take(*message);
+        }
+        worker_.messages.erase(0, begin);
+        return worker_.messages.size() <= most_message_bytes;
+    }
+
+    [[nodiscard]] ProcessEnd ended(int status) {
+        if (result_) return std::move(*result_);
+        ProcessEnd end;
+        end.why = WIFSIGNALED(status) ? std::string("signal ") + ::strsignal(WTERMSIG(status))
+                                      : "exit code " + std::to_string(WEXITSTATUS(status));
+        if (!worker_.said.empty()) end.why += ": " + worker_.said;
+        if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+            end.kind = ProcessEnd::Kind::timed_out;
+        // Nobody but the kernel, short of memory, or an operator ends a worker like that.
+        if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) end.kind = ProcessEnd::Kind::lost;
+        return end;
+    }
+
+private:
+    void take(const WorkMessage& message) {
+        if (message.progress)
+            return control_.on_progress(message.progress->first, message.progress->second);
+        result_.emplace();
+        result_->kind = message.retry ? ProcessEnd::Kind::retry : ProcessEnd::Kind::finished;
+        result_->outcome = message.outcome.value_or(JobOutcome{});
+        result_->report = message.report.value_or("");
+        result_->why = message.retry.value_or("");
+    }
+
+    Worker& worker_;
+    const ProcessControl& control_;
+    std::optional<ProcessEnd> result_;
+};
+
+}  // namespace
+
+std::string worker_program() {
+    return std::filesystem::read_symlink("/proc/self/exe").replace_filename("lastflat-work");
+}
+
+ProcessEnd run_worker_process(WorkOrder order, const ProcessLimits& limits,
+                              const ProcessControl& control) {
+    order.memory_mb = limits.memory_mb;
+    // A second line of defence, for when this process is frozen: it looks at no clock then.
+    order.cpu_seconds =
+        static_cast<int>(limits.time / std::chrono::seconds(1) + 1) * std::max(1, order.threads);
+    order.parent = ::getpid();
+    const auto deadline = Clock::now() + limits.time;
+    Worker worker(order, limits.program);
+    Supervision supervision(worker, control);
+    const auto stop = [&](ProcessEnd::Kind kind, const char* why) {
+        worker.kill();
+        ProcessEnd end;
+        end.kind = kind;
+        end.why = why;
+        return end;
+    };
+    while (worker.read()) {
+        if (!supervision.follow()) return stop(ProcessEnd::Kind::crashed, "it said nonsense");
+        if (control.must_stop()) return stop(ProcessEnd::Kind::stopped, "");
+        if (Clock::now() > deadline) return stop(ProcessEnd::Kind::timed_out, "");
+    }
+    if (!supervision.follow()) return stop(ProcessEnd::Kind::crashed, "it said nonsense");
+    return supervision.ended(worker.wait());
+}
+
+}  // namespace lastflat::server

@@ -1,0 +1,45 @@
+// A job in a process of its own, seen from the service.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+
+#include "server/protocol/work_messages.h"
+
+namespace lastflat::server {
+
+/// `lastflat-work`, beside the running program.
+[[nodiscard]] std::string worker_program();
+
+struct ProcessLimits {
+    std::string program = worker_program();
+    int memory_mb = 4096;  ///< 0: no limit
+    std::chrono::milliseconds time{300'000};
+};
+
+struct ProcessEnd {
+    enum class Kind {
+        finished,  ///< `outcome` or `report` says how
+        retry,     ///< not the job's fault: `why`
+        lost,      ///< somebody killed it: `why`
+        crashed,   ///< `why`
+        timed_out,
+        stopped  ///< because `must_stop` said so
+    };
+    Kind kind = Kind::crashed;
+    JobOutcome outcome;
+    std::string report, why;
+};
+
+struct ProcessControl {
+    std::function<void(const std::string& stage, double fraction)> on_progress;
+    /// Asked about 20 times a second; true ends the process at once.
+    std::function<bool()> must_stop;
+};
+
+/// Runs one order to its end. Whatever the process does, this returns.
+[[nodiscard]] ProcessEnd run_worker_process(WorkOrder order, const ProcessLimits& limits,
+                                            const ProcessControl& control);
+
+}  // namespace lastflat::server

@@ -1,0 +1,116 @@
+#include "server/storage/blob_store.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <mutex>
+
+#include "server/support/crypto.h"
+
+namespace lastflat::server {
+
+namespace fs = std::filesystem;
+
+BlobStore::BlobStore(fs::path folder) : folder_(std::move(folder)) {
+    std::error_code error;
+    bool made = false;
+    // All of them at once, so that no later write has to make one and sync two folders.
+    for (int i = 0; i < 256; ++i) {
+        made |= fs::create_directories(folder_ / hexadecimal(std::string(1, static_cast<char>(i))),
+                                       error);
+        if (error) throw StoreError("cannot make " + folder_.string() + ": " + error.message());
+    }
+    if (made) {
+        sync_folder(folder_);
+        sync_folder(folder_.parent_path());
+    }
+    remove_unfinished();
+}
+
+void BlobStore::remove_unfinished() const {
+    for (const auto& group : fs::directory_iterator(folder_)) {
+        for (const auto& file : fs::directory_iterator(group)) {
+            if (file.path().filename().string().front() == '.') ::unlink(file.path().c_str());
+        }
+    }
+}
+
+fs::path BlobStore::path_of(const std::string& digest) const {
+    return folder_ / digest.substr(0, 2) / digest.substr(2);
+}
+
+bool BlobStore::holds(const fs::path& path, std::string_view bytes) const {
+    std::error_code error;
+    if (fs::file_size(path, error) != bytes.size() || error) return false;
+    const File file(path, O_RDONLY);
+    return file.read(0, bytes.size()) == bytes;
+}
+
+std::string BlobStore::put(std::string_view bytes) const {
+    std::string digest = sha256(bytes);
+    const fs::path path = path_of(digest);
+    // Compared, not believed: a blob that went bad on the disk is mended here. One that is there
+    // may have got its name a moment ago, by somebody who has not made it last yet.
+    if (holds(path, bytes))
+        sync_folder(path.parent_path());
+    else
+        write_durably(path, bytes);
+    return digest;
+}
+
+void BlobStore::adopt(const fs::path& file, const std::string& digest) const {
+    const fs::path path = path_of(digest);
+    std::error_code unknown;
+    const bool taken_before = !fs::exists(file, unknown) && fs::exists(path, unknown);
+    if (!taken_before && ::rename(file.c_str(), path.c_str()) != 0) {
+        throw StoreError("cannot name " + path.string() + ": " + std::strerror(errno));
+    }
+    sync_folder(path.parent_path());
+}
+
+std::string BlobStore::read(const std::string& digest) const {
+    const File file(path_of(digest), O_RDONLY);
+    std::string bytes = file.read(0, file.size());
+    if (sha256(bytes) != digest) throw CorruptBlob("the blob " + digest + " has other bytes");
+    return bytes;
+}
+
+std::string BlobStore::read(const std::string& digest, std::size_t offset, std::size_t size) const {
+    return File(path_of(digest), O_RDONLY).read(offset, size);
+}
+
+bool BlobStore::remove(const std::string& digest) const {
+    return ::unlink(path_of(digest).c_str()) == 0;
+}
+
+std::vector<std::string> BlobStore::all() const {
+    std::vector<std::string> digests;
+    for (const auto& group : fs::directory_iterator(folder_)) {
+        for (const auto& file : fs::directory_iterator(group)) {
+            const std::string name = file.path().filename();
+            if (name.size() == 62) digests.push_back(group.path().filename().string() + name);
+        }
+    }
+    return digests;
+}
+
+std::uintmax_t BlobStore::bytes() const {
+    std::uintmax_t sum = 0;
+    for (const std::string& digest : all()) {
+        std::error_code gone;
+        const auto size = fs::file_size(path_of(digest), gone);
+        if (!gone) sum += size;
+    }
+    return sum;
+}
+
+std::uintmax_t BlobStore::free_bytes() const {
+    std::error_code unknown;
+    const fs::space_info space = fs::space(folder_, unknown);
+    if (unknown) throw StoreError("the room on the disk cannot be told: " + unknown.message());
+    return space.available;
+}
+
+}  // namespace lastflat::server

@@ -1,0 +1,65 @@
+#include "server/storage/sqlite.h"
+
+#include <chrono>
+
+#include "server/storage/sqlite_schema.h"
+
+namespace lastflat::server {
+namespace {
+
+constexpr int busy_ms = 10'000;
+constexpr std::size_t most_idle_readers = 8;
+
+}  // namespace
+
+SqliteConnection::SqliteConnection(const std::filesystem::path& file, bool read_only)
+    : database_(file.string(),
+                read_only ? SQLite::OPEN_READONLY : SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+                busy_ms) {
+    // KiB. The system has the file in memory; caches of their own only fill up for hours.
+    database_.exec(read_only ? "PRAGMA cache_size=-64" : "PRAGMA cache_size=-512");
+    if (read_only) return;
+    database_.exec("PRAGMA journal_mode=WAL");
+    database_.exec("PRAGMA synchronous=FULL");
+    database_.exec("PRAGMA journal_size_limit=67108864");
+}
+
+SQLite::Statement& SqliteConnection::prepared(const std::string& sql) {
+    auto& statement = statements_[sql];
+    if (!statement) statement = std::make_unique<SQLite::Statement>(database_, sql);
+    return *statement;
+}
+
+SqliteDatabase::SqliteDatabase(const std::filesystem::path& file, SqliteClock clock)
+    : file_(file), clock_(std::move(clock)) {
+    try {
+        writer_ = std::make_unique<SqliteConnection>(file, false);
+        migrate(writer_->database());
+    } catch (const SQLite::Exception& error) {
+        throw StoreError("cannot use " + file.string() + ": " + error.what());
+    }
+}
+
+double SqliteDatabase::seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+std::unique_ptr<SqliteConnection> SqliteDatabase::borrow() {
+    {
+        const std::scoped_lock lock(lending_);
+        if (!readers_.empty()) {
+            auto connection = std::move(readers_.back());
+            readers_.pop_back();
+            return connection;
+        }
+    }
+    return std::make_unique<SqliteConnection>(file_, true);
+}
+
+void SqliteDatabase::give_back(std::unique_ptr<SqliteConnection> connection) {
+    const std::scoped_lock lock(lending_);
+    if (readers_.size() < most_idle_readers) readers_.push_back(std::move(connection));
+}
+
+}  // namespace lastflat::server

@@ -1,0 +1,120 @@
+// What is asked of the jobs without changing them.
+#include <algorithm>
+
+#include "server/storage/sqlite_rows.h"
+#include "server/storage/sqlite_store.h"
+
+namespace lastflat::server {
+namespace {
+
+const std::string select_record = "SELECT " + std::string(record_columns) + " FROM jobs ";
+const std::string select_one = select_record + "WHERE id = ?1 AND (owner = ?2 OR ?2 = '')";
+/// Only the conditions that are asked for: an index serves what the statement says, not what it
+/// might have said.
+std::string select_list(const std::string& owner, const JobFilter& filter) {
+    std::string sql = select_record + "WHERE ?7 > 0";
+    if (!owner.empty()) sql += " AND owner = ?1";
+    if (filter.state) sql += " AND state = ?2";
+    if (filter.tag) sql += " AND tag = ?3 AND tag <> ''";
+    if (filter.batch) sql += " AND batch = ?4 AND batch <> ''";
+    if (filter.created_after_ms) sql += " AND created_ms > ?5";
+    if (filter.before) sql += " AND seq < ?6";
+    return sql + " ORDER BY seq DESC LIMIT ?7";
+}
+
+std::size_t place_in_queue(SqliteConnection& connection, std::int64_t seq) {
+    Query query(
+        connection.prepared("SELECT count(*) FROM jobs WHERE state = 'queued' AND seq <= ?"));
+    return query.bind(seq).next() ? static_cast<std::size_t>(query.number(0)) : 0;
+}
+
+}  // namespace
+
+std::optional<JobRecord> SqliteStore::find(const std::string& owner, const std::string& id) {
+    return database_.read([&](SqliteConnection& connection) -> std::optional<JobRecord> {
+        Query query(connection.prepared(select_one));
+        if (!query.bind(id, owner).next()) return std::nullopt;
+        JobRecord job = record_of(query, retention_);
+        if (job.state == JobState::queued)
+            job.queue_position = place_in_queue(connection, query.number(0));
+        return job;
+    });
+}
+
+bool SqliteStore::is_expired(const std::string& owner, const std::string& id) {
+    return database_.read([&](SqliteConnection& connection) {
+        Query query(
+            connection.prepared("SELECT 1 FROM expired WHERE id = ?1 AND (owner = ?2 OR ?2 = '')"));
+        return query.bind(id, owner).next();
+    });
+}
+
+JobList SqliteStore::list(const std::string& owner, const JobFilter& filter) {
+    return database_.read([&](SqliteConnection& connection) {
+        std::optional<std::string> state;
+        if (filter.state) state = name(*filter.state);
+        Query query(connection.prepared(select_list(owner, filter)));
+        query.bind(owner, state, filter.tag, filter.batch, filter.created_after_ms, filter.before,
+                   static_cast<std::int64_t>(filter.limit + 1));
+        JobList list;
+        std::int64_t last = 0;
+        while (query.next()) {
+            if (list.jobs.size() == filter.limit) {
+                list.next = last;
+                break;
+            }
+            last = query.number(0);
+            list.jobs.push_back(record_of(query, retention_));
+            if (list.jobs.back().state == JobState::queued)
+                list.jobs.back().queue_position = place_in_queue(connection, last);
+        }
+        return list;
+    });
+}
+
+std::vector<StateChange> SqliteStore::history(const std::string& id, std::int64_t after) {
+    return database_.read([&](SqliteConnection& connection) {
+        Query query(connection.prepared(
+            "SELECT c.revision, c.at_ms, c.state, c.attempt FROM changes c JOIN jobs j "
+            "ON j.seq = c.seq WHERE j.id = ? AND c.revision > ? ORDER BY c.revision"));
+        query.bind(id, after);
+        std::vector<StateChange> changes;
+        while (query.next()) {
+            changes.push_back({query.number(0), query.number(1),
+                               job_state_of(query.text(2)).value_or(JobState::failed),
+                               static_cast<int>(query.number(3))});
+        }
+        return changes;
+    });
+}
+
+JobCounts SqliteStore::counts() {
+    return database_.read([](SqliteConnection& connection) {
+        Query query(connection.prepared(
+            "SELECT state, count(*), min(created_ms) FROM jobs "
+            "WHERE state IN ('queued', 'running', 'canceling') GROUP BY state"));
+        JobCounts counts;
+        while (query.next()) {
+            const auto jobs = static_cast<std::size_t>(query.number(1));
+            if (query.text(0) == "queued") {
+                counts.queued = jobs;
+                counts.oldest_queued_ms = query.number(2);
+            } else {
+                counts.running += jobs;
+            }
+        }
+        return counts;
+    });
+}
+
+bool SqliteStore::needs_blob(const std::string& digest) {
+    return database_.read([&](SqliteConnection& connection) {
+        Query query(connection.prepared(
+            "SELECT 1 FROM jobs WHERE model = ?1 AND state IN ('queued', 'running', 'canceling') "
+            "UNION ALL SELECT 1 FROM jobs WHERE result = ?1 AND result <> '' "
+            "UNION ALL SELECT 1 FROM assets WHERE digest = ?1 LIMIT 1"));
+        return query.bind(digest).next();
+    });
+}
+
+}  // namespace lastflat::server

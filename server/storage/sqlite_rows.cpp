@@ -1,0 +1,159 @@
+#include "server/storage/sqlite_rows.h"
+
+#include "api/job.h"
+#include "server/jobs/result_parts.h"
+
+namespace lastflat::server {
+namespace {
+
+JobState state_of(const std::string& word) {
+    const auto state = job_state_of(word);
+    if (!state) throw StoreError("the database has a job in the unknown state '" + word + "'");
+    return *state;
+}
+
+JobRow row_of(const Query& query) {
+    return {query.number(0),
+            query.number(1),
+            state_of(query.text(2)),
+            static_cast<int>(query.number(3)),
+            query.text(4),
+            query.text(5),
+            query.text(6)};
+}
+
+}  // namespace
+
+JobRecord record_of(const Query& query, const Retention& retention) {
+    JobRecord job;
+    job.id = query.text(1);
+    job.owner = query.text(2);
+    job.tag = query.text(3);
+    job.batch = query.text(4);
+    job.state = state_of(query.text(5));
+    job.reason = query.text(6);
+    job.fingerprint = query.text(7);
+    job.model_bytes = static_cast<std::uint64_t>(query.number(8));
+    job.created_ms = query.number(9);
+    job.started_ms = query.maybe_number(10);
+    job.finished_ms = query.maybe_number(11);
+    job.cancel_at_ms = query.maybe_number(12);
+    job.attempt = static_cast<int>(query.number(13));
+    job.revision = query.number(14);
+    job.error = query.text(15);
+    job.result = query.text(16);
+    job.model = query.text(18);
+    job.parts = result_parts_of(query.text(17));
+    if (job.finished_ms) {
+        job.expires_ms = *job.finished_ms + retention.job_ms;
+        if (job.state == JobState::succeeded)
+            job.result_expires_ms = *job.finished_ms + retention.result_ms;
+    }
+    return job;
+}
+
+std::optional<JobRow> find_row(SqliteConnection& connection, const std::string& owner,
+                               const std::string& id) {
+    Query query(
+        connection.prepared("SELECT seq, revision, state, attempt, id, model, result FROM jobs "
+                            "WHERE id = ?1 AND (owner = ?2 OR ?2 = '')"));
+    if (!query.bind(id, owner).next()) return std::nullopt;
+    return row_of(query);
+}
+
+std::optional<JobRow> leased_row(SqliteConnection& connection, const Lease& lease) {
+    Query query(connection.prepared(
+        "SELECT seq, revision, state, attempt, id, model, result FROM jobs WHERE id = ? "
+        "AND lease_token = ? AND state IN ('running', 'canceling')"));
+    if (!query.bind(lease.id, lease.token).next()) return std::nullopt;
+    return row_of(query);
+}
+
+bool add_delivery(SqliteConnection& connection, const std::string& webhook,
+                  const std::string& event, const nlohmann::ordered_json& data, int most_pending) {
+    const std::int64_t now = now_ms();
+    const nlohmann::ordered_json payload{
+        {"type", event}, {"timestamp", api::rfc3339(now)}, {"data", data}};
+    return Query(connection.prepared(
+                     "INSERT INTO deliveries (id, webhook, event, payload, created_ms, next_ms) "
+                     "SELECT ?1, ?2, ?3, ?4, ?5, ?5 FROM webhooks WHERE id = ?2 AND "
+                     "(SELECT count(*) FROM deliveries WHERE webhook = ?2 AND "
+                     "next_ms IS NOT NULL) < ?6"))
+               .bind("msg_" + new_job_id(), webhook, event, payload.dump(), now, most_pending)
+               .run() > 0;
+}
+
+void add_webhook(SqliteConnection& connection, const Webhook& webhook, const std::string& job) {
+    Query(connection.prepared(
+              "INSERT INTO webhooks (id, owner, url, secret, events, created_ms, job) "
+              "VALUES (?, ?, ?, ?, ?, ?, ?)"))
+        .bind(webhook.id, webhook.owner, webhook.url, webhook.secret, webhook.events,
+              webhook.created_ms, job)
+        .run();
+}
+
+void erase_webhook(SqliteConnection& connection, const std::string& id) {
+    Query(connection.prepared("DELETE FROM deliveries WHERE webhook = ?")).bind(id).run();
+    Query(connection.prepared("DELETE FROM webhooks WHERE id = ?")).bind(id).run();
+}
+
+void note_change(SqliteConnection& connection, const JobRow& row) {
+    Query(connection.prepared("INSERT INTO changes VALUES (?, ?, ?, ?, ?)"))
+        .bind(row.seq, row.revision, now_ms(), name(row.state), row.attempt)
+        .run();
+}
+
+/// A message to each webhook of the job's owner, and to the job's own, that wants this state.
+void tell_webhooks(SqliteConnection& connection, const JobRow& row) {
+    const std::string event = "job." + std::string(name(row.state));
+    Query query(
+        connection.prepared("SELECT w.id, j.tag FROM webhooks w JOIN jobs j ON j.owner = w.owner "
+                            "AND w.job IN ('', j.id) WHERE j.seq = ?1 AND instr(' ' || w.events || "
+                            "' ', ' ' || ?2 || ' ') > 0"));
+    query.bind(row.seq, event);
+    std::vector<std::string> webhooks;
+    std::string tag;
+    while (query.next()) {
+        webhooks.push_back(query.text(0));
+        tag = query.text(1);
+    }
+    for (const std::string& webhook : webhooks) {
+        nlohmann::ordered_json data{{"id", row.id}, {"state", name(row.state)}};
+        if (!tag.empty()) data["tag"] = tag;
+        (void)add_delivery(connection, webhook, event, data, most_pending_messages);
+    }
+}
+
+void change_state(SqliteConnection& connection, JobRow& row, JobState to,
+                  const std::string& reason) {
+    if (!may_become(row.state, to)) {
+        throw std::logic_error("a job cannot become " + std::string(name(to)) + " from " +
+                               std::string(name(row.state)));
+    }
+    row.state = to;
+    ++row.revision;
+    Query(connection.prepared(
+              "UPDATE jobs SET state = ?2, revision = ?3, attempt = ?4, "
+              "reason = CASE ?5 WHEN '' THEN reason ELSE ?5 END, "
+              "started_ms = CASE ?2 WHEN 'running' THEN ?6 WHEN 'queued' THEN NULL "
+              "ELSE started_ms END, "
+              "finished_ms = CASE WHEN ?2 IN ('succeeded', 'failed', 'canceled') THEN ?6 END, "
+              "lease_token = CASE WHEN ?2 = 'canceling' THEN lease_token END, "
+              "lease_until_ms = CASE WHEN ?2 = 'canceling' THEN lease_until_ms END "
+              "WHERE seq = ?1"))
+        .bind(row.seq, name(to), row.revision, row.attempt, reason, now_ms())
+        .run();
+    note_change(connection, row);
+    if (is_final(to)) tell_webhooks(connection, row);
+}
+
+void erase_row(SqliteConnection& connection, const JobRow& row) {
+    Query(connection.prepared("DELETE FROM changes WHERE seq = ?")).bind(row.seq).run();
+    Query(connection.prepared("DELETE FROM idempotency WHERE id = ?")).bind(row.id).run();
+    // A client may choose an id that is a webhook's: only the job's own goes with it.
+    Query own(connection.prepared("SELECT 1 FROM webhooks WHERE id = ?1 AND job = ?1"));
+    if (own.bind(row.id).next()) erase_webhook(connection, row.id);
+    Query(connection.prepared("DELETE FROM jobs WHERE seq = ?")).bind(row.seq).run();
+}
+
+}  // namespace lastflat::server

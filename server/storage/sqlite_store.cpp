@@ -1,0 +1,276 @@
+#include "server/storage/sqlite_store.h"
+
+#include <cstring>
+
+#include "server/jobs/result_parts.h"
+#include "server/storage/sqlite_rows.h"
+#include "server/support/crypto.h"
+
+namespace lastflat::server {
+namespace {
+
+constexpr std::int64_t expired_memory_ms = 30 * 24 * 3600'000LL;
+/// Longer than a message is tried.
+constexpr std::int64_t message_memory_ms = 3 * 24 * 3600'000LL;
+
+std::int64_t random_token() {
+    const std::string bytes = random_bytes(8);
+    std::uint64_t token = 0;
+    std::memcpy(&token, bytes.data(), sizeof token);
+    return static_cast<std::int64_t>(token >> 1);
+}
+
+std::int64_t count(SqliteConnection& connection, const char* sql, const std::string& value = {}) {
+    Query query(connection.prepared(sql));
+    if (!value.empty()) query.bind(value);
+    return query.next() ? query.number(0) : 0;
+}
+
+/// An earlier job that this one repeats, or stands in the way of.
+std::optional<Admitted> earlier(SqliteConnection& connection, const NewJob& job) {
+    Query same_id(connection.prepared("SELECT owner, fingerprint FROM jobs WHERE id = ?"));
+    if (same_id.bind(job.id).next()) {
+        const bool same = same_id.text(0) == job.owner && same_id.text(1) == job.fingerprint;
+        return Admitted{same ? Admission::repeated : Admission::id_taken, job.id};
+    }
+    Query webhook(connection.prepared("SELECT 1 FROM webhooks WHERE id = ?"));
+    if (job.webhook && webhook.bind(job.id).next()) return Admitted{Admission::id_taken, job.id};
+    if (job.idempotency_key.empty()) return std::nullopt;
+    Query same_key(
+        connection.prepared("SELECT fingerprint, id FROM idempotency WHERE owner = ? AND key = ?"));
+    if (!same_key.bind(job.owner, job.idempotency_key).next()) return std::nullopt;
+    const bool same = same_key.text(0) == job.fingerprint;
+    return Admitted{same ? Admission::repeated : Admission::key_reused, same_key.text(1)};
+}
+
+void insert(SqliteConnection& connection, const NewJob& job) {
+    Query(connection.prepared(
+              "INSERT INTO jobs (id, owner, tag, batch, state, request, model, model_bytes, "
+              "fingerprint, created_ms, cancel_at_ms) "
+              "VALUES (?, ?, ?, ?, 'queued', ?, ?, ?, ?, ?, ?)"))
+        .bind(job.id, job.owner, job.tag, job.batch, job.request, job.model, job.model_bytes,
+              job.fingerprint, now_ms(), job.cancel_at_ms)
+        .run();
+    JobRow row;
+    row.seq = connection.database().getLastInsertRowid();
+    row.revision = 1;
+    note_change(connection, row);
+    if (job.webhook) {
+        add_webhook(connection,
+                    {job.id, job.owner, job.webhook->url, job.webhook->secret, job.webhook->events,
+                     now_ms()},
+                    job.id);
+    }
+    if (job.idempotency_key.empty()) return;
+    Query(connection.prepared("INSERT INTO idempotency VALUES (?, ?, ?, ?)"))
+        .bind(job.owner, job.idempotency_key, job.fingerprint, job.id)
+        .run();
+}
+
+std::vector<std::string> ids_of(Query& query) {
+    std::vector<std::string> ids;
+    while (query.next()) ids.push_back(query.text(0));
+    return ids;
+}
+
+void end_lost_leases(SqliteConnection& connection, bool all, const std::string& lost,
+                     Swept& swept) {
+    Query over(
+        connection.prepared("SELECT id FROM jobs WHERE state IN ('running', 'canceling') "
+                            "AND (lease_until_ms <= ?1 OR ?2)"));
+    for (const std::string& id : ids_of(over.bind(now_ms(), all ? 1 : 0))) {
+        JobRow row = find_row(connection, "", id).value();
+        if (row.state == JobState::canceling) {
+            change_state(connection, row, JobState::canceled);
+        } else if (row.attempt >= most_attempts) {
+            change_state(connection, row, JobState::failed);
+            Query(connection.prepared("UPDATE jobs SET error = ? WHERE seq = ?"))
+                .bind(lost, row.seq)
+                .run();
+        } else {
+            change_state(connection, row, JobState::queued);
+        }
+        swept.changed.push_back(id);
+        swept.blobs.push_back(row.model);
+    }
+}
+
+void end_overdue(SqliteConnection& connection, Swept& swept) {
+    Query overdue(connection.prepared(
+        "SELECT id FROM jobs INDEXED BY jobs_by_deadline WHERE finished_ms IS NULL AND "
+        "cancel_at_ms <= ? AND state IN ('queued', 'running')"));
+    for (const std::string& id : ids_of(overdue.bind(now_ms()))) {
+        JobRow row = find_row(connection, "", id).value();
+        const bool waits = row.state == JobState::queued;
+        change_state(connection, row, waits ? JobState::canceled : JobState::canceling, "deadline");
+        swept.changed.push_back(id);
+        swept.blobs.push_back(row.model);
+    }
+}
+
+void forget_expired(SqliteConnection& connection, const Retention& retention, Swept& swept) {
+    Query results(
+        connection.prepared("SELECT result FROM jobs INDEXED BY jobs_with_result "
+                            "WHERE finished_ms <= ? AND result <> '' LIMIT 1000"));
+    results.bind(now_ms() - retention.result_ms);
+    for (const std::string& blob : ids_of(results)) {
+        Query(
+            connection.prepared("UPDATE jobs SET result = '', parts = '', revision = revision + 1 "
+                                "WHERE result = ? AND result <> ''"))
+            .bind(blob)
+            .run();
+        swept.blobs.push_back(blob);
+    }
+    Query jobs(connection.prepared("SELECT id FROM jobs WHERE finished_ms <= ? LIMIT 1000"));
+    for (const std::string& id : ids_of(jobs.bind(now_ms() - retention.job_ms))) {
+        const JobRow row = find_row(connection, "", id).value();
+        Query(connection.prepared("INSERT OR REPLACE INTO expired "
+                                  "SELECT id, owner, ?2 FROM jobs WHERE seq = ?1"))
+            .bind(row.seq, now_ms())
+            .run();
+        if (!row.result.empty()) swept.blobs.push_back(row.result);
+        erase_row(connection, row);
+    }
+    Query(connection.prepared("DELETE FROM deliveries WHERE seq IN (SELECT seq FROM deliveries "
+                              "ORDER BY seq LIMIT 200) AND created_ms <= ?"))
+        .bind(now_ms() - message_memory_ms)
+        .run();
+    Query(connection.prepared("DELETE FROM expired WHERE at_ms <= ?"))
+        .bind(now_ms() - expired_memory_ms)
+        .run();
+}
+
+}  // namespace
+
+Admitted SqliteStore::add(const NewJob& job, const QueueLimits& limits) {
+    return database_.write([&](SqliteConnection& connection) -> Admitted {
+        if (const auto found = earlier(connection, job)) return *found;
+        const auto is_full = [](std::int64_t waiting, std::size_t most) {
+            return static_cast<std::size_t>(waiting) >= most;
+        };
+        if (is_full(count(connection, "SELECT count(*) FROM jobs WHERE state = 'queued'"),
+                    limits.queued)) {
+            return {Admission::queue_full, {}};
+        }
+        if (!job.owner.empty() &&
+            is_full(
+                count(connection, "SELECT count(*) FROM jobs WHERE state = 'queued' AND owner = ?",
+                      job.owner),
+                limits.queued_of_owner)) {
+            return {Admission::owner_queue_full, {}};
+        }
+        insert(connection, job);
+        return {Admission::queued, job.id};
+    });
+}
+
+std::optional<Claim> SqliteStore::claim(std::int64_t lease_ms) {
+    return database_.write([&](SqliteConnection& connection) -> std::optional<Claim> {
+        Query next(
+            connection.prepared("SELECT id FROM jobs WHERE state = 'queued' "
+                                "AND not_before_ms <= ? ORDER BY seq LIMIT 1"));
+        if (!next.bind(now_ms()).next()) return std::nullopt;
+        JobRow row = find_row(connection, "", next.text(0)).value();
+        ++row.attempt;
+        change_state(connection, row, JobState::running);
+        const std::int64_t token = random_token();
+        Query(connection.prepared(
+                  "UPDATE jobs SET lease_token = ?, lease_until_ms = ? WHERE seq = ?"))
+            .bind(token, now_ms() + lease_ms, row.seq)
+            .run();
+        Query job(connection.prepared(
+            "SELECT owner, tag, model, request, model_bytes, created_ms, retries, "
+            "cancel_at_ms FROM jobs WHERE seq = ?"));
+        if (!job.bind(row.seq).next()) return std::nullopt;
+        return Claim{{row.id, token},    job.text(0), job.text(1),
+                     job.text(2),        job.text(3), static_cast<std::uint64_t>(job.number(4)),
+                     job.number(5),      row.attempt, static_cast<int>(job.number(6)),
+                     job.maybe_number(7)};
+    });
+}
+
+Hold SqliteStore::renew(const Lease& lease, std::int64_t lease_ms) {
+    return database_.write([&](SqliteConnection& connection) {
+        const auto row = leased_row(connection, lease);
+        if (!row) return Hold::lost;
+        Query(connection.prepared("UPDATE jobs SET lease_until_ms = ? WHERE seq = ?"))
+            .bind(now_ms() + lease_ms, row->seq)
+            .run();
+        return row->state == JobState::canceling ? Hold::canceling : Hold::held;
+    });
+}
+
+std::optional<JobState> SqliteStore::finish(const Lease& lease, const JobOutcome& outcome) {
+    return database_.write([&](SqliteConnection& connection) -> std::optional<JobState> {
+        auto row = leased_row(connection, lease);
+        if (!row) return std::nullopt;
+        if (row->state == JobState::canceling) {
+            change_state(connection, *row, JobState::canceled);
+            return row->state;
+        }
+        const bool succeeded = outcome.error.empty();
+        change_state(connection, *row, succeeded ? JobState::succeeded : JobState::failed);
+        Query(connection.prepared("UPDATE jobs SET result = ?, parts = ?, error = ? WHERE seq = ?"))
+            .bind(outcome.result, succeeded ? to_json(outcome.parts) : std::string(), outcome.error,
+                  row->seq)
+            .run();
+        return row->state;
+    });
+}
+
+std::optional<JobState> SqliteStore::release(const Lease& lease, Release why) {
+    return database_.write([&](SqliteConnection& connection) -> std::optional<JobState> {
+        auto row = leased_row(connection, lease);
+        if (!row) return std::nullopt;
+        if (row->state == JobState::canceling) {
+            change_state(connection, *row, JobState::canceled);
+            return row->state;
+        }
+        if (why != Release::lost) --row->attempt;
+        change_state(connection, *row, JobState::queued);
+        if (why == Release::later) {
+            Query(connection.prepared("UPDATE jobs SET retries = retries + 1, not_before_ms = ?1 + "
+                                      "min(5000 << min(retries, 10), 300000) WHERE seq = ?2"))
+                .bind(now_ms(), row->seq)
+                .run();
+        }
+        return row->state;
+    });
+}
+
+std::optional<JobState> SqliteStore::cancel(const std::string& owner, const std::string& id) {
+    return database_.write([&](SqliteConnection& connection) -> std::optional<JobState> {
+        auto row = find_row(connection, owner, id);
+        if (!row) return std::nullopt;
+        if (row->state == JobState::queued)
+            change_state(connection, *row, JobState::canceled, "client");
+        else if (row->state == JobState::running)
+            change_state(connection, *row, JobState::canceling, "client");
+        return row->state;
+    });
+}
+
+std::optional<std::vector<std::string>> SqliteStore::remove(const std::string& owner,
+                                                            const std::string& id) {
+    return database_.write(
+        [&](SqliteConnection& connection) -> std::optional<std::vector<std::string>> {
+            const auto row = find_row(connection, owner, id);
+            if (!row) return std::nullopt;
+            erase_row(connection, *row);
+            std::vector<std::string> blobs{row->model};
+            if (!row->result.empty()) blobs.push_back(row->result);
+            return blobs;
+        });
+}
+
+Swept SqliteStore::sweep(bool all_leases, const std::string& lost) {
+    return database_.write([&](SqliteConnection& connection) {
+        Swept swept;
+        end_lost_leases(connection, all_leases, lost, swept);
+        end_overdue(connection, swept);
+        forget_expired(connection, retention_, swept);
+        return swept;
+    });
+}
+
+}  // namespace lastflat::server

@@ -1,0 +1,150 @@
+// The real program as a worker: it is run, misused and killed.
+#include "server/runner/worker_process.h"
+
+#include <doctest/doctest.h>
+#include <zlib.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "server/protocol/result_pack.h"
+#include "server/storage/blob_store.h"
+#include "server/support/crypto.h"
+#include "tests/helpers/temporary_folder.h"
+
+namespace lastflat::server {
+namespace {
+
+constexpr char square[] = "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3 4\n";
+
+struct WorkSetting {
+    lastflat::test::TemporaryFolder folder;
+    ProcessLimits limits;
+    std::vector<std::string> stages;
+
+    WorkSetting() {
+        if (const char* program = std::getenv("LASTFLAT"))
+            limits.program = std::filesystem::path(program).replace_filename("lastflat-work");
+    }
+
+    WorkOrder order(const std::string& model, const std::string& request = "") const {
+        WorkOrder order;
+        order.model = folder.path() / "model";
+        order.digest = sha256(model);
+        order.request = request;
+        order.result = folder.path() / "result";
+        write_durably(order.model, model);
+        return order;
+    }
+    ProcessEnd run(
+        const WorkOrder& order, std::function<bool()> must_stop = [] { return false; }) {
+        return run_worker_process(
+            order, limits,
+            {[this](const std::string& stage, double) { stages.push_back(stage); }, must_stop});
+    }
+};
+
+std::string gunzip(const std::string& packed) {
+    z_stream stream{};
+    REQUIRE(inflateInit2(&stream, 15 + 16) == Z_OK);
+    std::string bytes(1 << 20, '\0');
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+    stream.avail_in = static_cast<uInt>(packed.size());
+    stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
+    stream.avail_out = static_cast<uInt>(bytes.size());
+    CHECK(inflate(&stream, Z_FINISH) == Z_STREAM_END);
+    bytes.resize(bytes.size() - stream.avail_out);
+    inflateEnd(&stream);
+    return bytes;
+}
+
+/// A program that is no worker.
+std::string script(const WorkSetting& s, const std::string& body) {
+    const auto path = s.folder.path() / "script";
+    std::ofstream(path) << "#!/bin/sh\n" << body << "\n";
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+    return path;
+}
+
+}  // namespace
+
+TEST_SUITE("server/runner/worker_process") {
+    TEST_CASE("a job comes back with every format, plain and compressed, each checked") {
+        WorkSetting s;
+        REQUIRE(std::filesystem::exists(s.limits.program));
+        const ProcessEnd end = s.run(s.order(square));
+        REQUIRE(end.kind == ProcessEnd::Kind::finished);
+        CHECK(end.outcome.error == "");
+        REQUIRE(end.outcome.parts.size() == 10);
+        CHECK(s.stages.front() == "load");
+        CHECK(s.stages.back() == "done");
+        const File file(s.folder.path() / "result", 0);
+        CHECK(sha256(file.read(0, file.size())) == end.outcome.result);
+        for (std::size_t i = 0; i < 10; i += 2) {
+            const ResultPart &plain = end.outcome.parts[i], &packed = end.outcome.parts[i + 1];
+            const std::string bytes = file.read(plain.offset, plain.size);
+            CHECK(sha256(bytes) == plain.digest);
+            CHECK(packed.gzip);
+            CHECK(gunzip(file.read(packed.offset, packed.size)) == bytes);
+        }
+    }
+
+    TEST_CASE("what is wrong with a job comes back as its problem") {
+        WorkSetting s;
+        const auto error = [&](const WorkOrder& order) {
+            const ProcessEnd end = s.run(order);
+            CHECK(end.kind == ProcessEnd::Kind::finished);
+            return end.outcome.error;
+        };
+        CHECK(error(s.order("hello")).find("unreadable_model") != std::string::npos);
+        CHECK(error(s.order(square, "{\"cut\": []}")).find("invalid_request") != std::string::npos);
+        WorkOrder changed = s.order(square);
+        write_durably(changed.model, "other bytes");
+        CHECK(error(changed).find("model_lost") != std::string::npos);
+    }
+
+    TEST_CASE("a validation comes back with a report") {
+        WorkSetting s;
+        WorkOrder order = s.order(square);
+        order.task = Task::validate;
+        CHECK(s.run(order).report.find("\"flattens\":true") != std::string::npos);
+        order = s.order("hello");
+        order.task = Task::validate;
+        CHECK(s.run(order).outcome.error.find("unreadable_model") != std::string::npos);
+    }
+
+    TEST_CASE("a process that crashes, talks nonsense, hangs or is killed takes nothing with it") {
+        WorkSetting s;
+        s.limits.time = std::chrono::milliseconds(300);
+        const auto kind = [&](const std::string& body) {
+            s.limits.program = script(s, body);
+            return s.run(s.order(square)).kind;
+        };
+        using Kind = ProcessEnd::Kind;
+        CHECK(kind("kill -SEGV $$") == Kind::crashed);
+        CHECK(kind("kill -KILL $$") == Kind::lost);
+        CHECK(kind("kill -XCPU $$") == Kind::timed_out);
+        CHECK(kind("exit 0") == Kind::crashed);
+        CHECK(kind("echo nonsense; sleep 10") == Kind::crashed);
+        CHECK(kind("echo '{\"stage\": 7}'") == Kind::crashed);
+        CHECK(kind("exec sleep 10") == Kind::timed_out);
+        CHECK(kind("echo '{\"retry\": \"the disk is full\"}'") == Kind::retry);
+        CHECK(s.run(s.order(square), [] { return true; }).kind == Kind::stopped);
+        s.limits.program = "/nowhere";
+        CHECK_THROWS((void)s.run(s.order(square)));
+    }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    TEST_CASE("a job that wants more memory than it may have says so") {
+        WorkSetting s;
+        s.limits.memory_mb = 40;
+        std::string model;
+        for (int i = 0; i < 1'500'000; ++i) model += "v " + std::to_string(i) + " 0 0\n";
+        const ProcessEnd end = s.run(s.order(model + "f 1 2 3\n"));
+        CHECK(end.kind == ProcessEnd::Kind::finished);
+        CHECK(end.outcome.error.find("out_of_memory") != std::string::npos);
+    }
+#endif
+}
+
+}  // namespace lastflat::server

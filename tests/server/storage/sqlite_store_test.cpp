@@ -1,0 +1,287 @@
+#include "server/storage/sqlite_store.h"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <set>
+#include <thread>
+
+#include "tests/server/storage/test_store.h"
+
+namespace lastflat::server {
+
+using test::failure;
+using test::new_job;
+using test::success;
+using test::TestStore;
+
+namespace {
+
+constexpr std::int64_t long_lease = 60'000;
+
+}  // namespace
+
+TEST_SUITE("server/jobs/job_state") {
+    TEST_CASE("a finished job never changes again") {
+        for (const JobState from : {JobState::succeeded, JobState::failed, JobState::canceled}) {
+            for (int to = 0; to < 6; ++to) CHECK_FALSE(may_become(from, static_cast<JobState>(to)));
+        }
+        CHECK_FALSE(may_become(JobState::queued, JobState::succeeded));
+        CHECK_FALSE(may_become(JobState::canceling, JobState::succeeded));
+    }
+}
+
+TEST_SUITE("server/storage/sqlite_store") {
+    TEST_CASE("jobs are claimed oldest first, and their places are told") {
+        TestStore s;
+        REQUIRE(s.add(new_job("A")) == Admission::queued);
+        REQUIRE(s.add(new_job("B")) == Admission::queued);
+        CHECK(s.store.find("", "B")->queue_position == 2);
+        const auto claim = s.store.claim(long_lease);
+        REQUIRE(claim.has_value());
+        CHECK(claim->lease.id == "A");
+        CHECK(claim->model == "model-A");
+        CHECK(claim->attempt == 1);
+        CHECK(s.state("A") == JobState::running);
+        CHECK(s.store.find("", "B")->queue_position == 1);
+        CHECK(s.store.claim(long_lease)->lease.id == "B");
+        CHECK_FALSE(s.store.claim(long_lease).has_value());
+        CHECK(s.store.counts().running == 2);
+    }
+
+    TEST_CASE("everything of a job survives its end and a new start") {
+        TestStore s;
+        REQUIRE(s.add(new_job("A", "key")) == Admission::queued);
+        const auto claim = s.store.claim(long_lease).value();
+        CHECK(s.store.finish(claim.lease, success()) == JobState::succeeded);
+        SqliteDatabase again(s.folder.path() / "jobs.sqlite");
+        SqliteStore store(again, {});
+        const JobRecord job = store.find("key", "A").value();
+        CHECK(job.state == JobState::succeeded);
+        CHECK(job.result == "result");
+        REQUIRE(job.parts.size() == 1);
+        CHECK(job.parts[0].format == "json");
+        CHECK(job.tag == "tag-A");
+        CHECK(job.finished_ms >= job.started_ms);
+        CHECK(job.result_expires_ms < job.expires_ms);
+        std::string states;
+        for (const StateChange& change : store.history("A", 0))
+            states += std::string(name(change.state)) + " ";
+        CHECK(states == "queued running succeeded ");
+        CHECK(store.history("A", 2).size() == 1);
+    }
+
+    TEST_CASE("a lost lease can change nothing") {
+        TestStore s;
+        REQUIRE(s.add(new_job("A")) == Admission::queued);
+        const auto first = s.store.claim(0).value();  // over at once
+        CHECK(s.store.sweep(false, "{}").changed == std::vector<std::string>{"A"});
+        CHECK(s.state("A") == JobState::queued);
+        CHECK(s.store.renew(first.lease, long_lease) == Hold::lost);
+        const auto second = s.store.claim(long_lease).value();
+        CHECK(second.attempt == 2);
+        CHECK_FALSE(s.store.finish(first.lease, success("stale")).has_value());
+        CHECK_FALSE(s.store.release(first.lease, Release::lost).has_value());
+        CHECK(s.state("A") == JobState::running);
+        CHECK(s.store.renew(second.lease, long_lease) == Hold::held);
+        CHECK(s.store.finish(second.lease, success("fresh")) == JobState::succeeded);
+        CHECK(s.store.find("", "A")->result == "fresh");
+    }
+
+    TEST_CASE("a job whose worker is lost three times fails and says so") {
+        TestStore s;
+        REQUIRE(s.add(new_job("A")) == Admission::queued);
+        for (int attempt = 1; attempt <= most_attempts; ++attempt) {
+            CHECK(s.state("A") == JobState::queued);
+            CHECK(s.store.claim(long_lease)->attempt == attempt);
+            (void)s.store.sweep(true, "{\"code\":\"worker_lost\"}");
+        }
+        const JobRecord job = s.store.find("", "A").value();
+        CHECK(job.state == JobState::failed);
+        CHECK(job.error == "{\"code\":\"worker_lost\"}");
+        CHECK_FALSE(s.store.claim(long_lease).has_value());
+    }
+
+    TEST_CASE("a job given back does not lose an attempt, unless it is to") {
+        TestStore s;
+        REQUIRE(s.add(new_job("A")) == Admission::queued);
+        for (int i = 0; i < 5; ++i) {
+            const auto claim = s.store.claim(long_lease).value();
+            CHECK(claim.attempt == 1);
+            CHECK(s.store.release(claim.lease, Release::unfinished) == JobState::queued);
+        }
+        CHECK(s.store.release(s.store.claim(long_lease)->lease, Release::lost) == JobState::queued);
+        CHECK(s.store.claim(long_lease)->attempt == 2);
+    }
+
+    TEST_CASE("a job that is put off lets others go first") {
+        TestStore s;
+        REQUIRE(s.add(new_job("A")) == Admission::queued);
+        REQUIRE(s.add(new_job("B")) == Admission::queued);
+        CHECK(s.store.release(s.store.claim(long_lease)->lease, Release::later) ==
+              JobState::queued);
+        CHECK(s.store.claim(long_lease)->lease.id == "B");
+        CHECK_FALSE(s.store.claim(long_lease).has_value());  // A: in five seconds
+        CHECK(s.store.find("", "A")->attempt == 0);
+    }
+
+    TEST_CASE("a job that is cancelled while it runs ends as canceled, whatever it returns") {
+        TestStore s;
+        REQUIRE(s.add(new_job("A")) == Admission::queued);
+        const auto claim = s.store.claim(long_lease).value();
+        CHECK(s.store.cancel("", "A") == JobState::canceling);
+        CHECK(s.store.cancel("", "A") == JobState::canceling);
+        CHECK(s.store.renew(claim.lease, long_lease) == Hold::canceling);
+        CHECK(s.store.finish(claim.lease, success()) == JobState::canceled);
+        CHECK(s.store.find("", "A")->result.empty());
+        CHECK(s.store.find("", "A")->reason == "client");
+        CHECK(s.store.cancel("", "A") == JobState::canceled);
+    }
+
+    TEST_CASE("a deadline cancels what waits and what runs") {
+        TestStore s;
+        NewJob waits = new_job("B"), runs = new_job("A"), later = new_job("C");
+        waits.cancel_at_ms = runs.cancel_at_ms = now_ms() - 1;
+        later.cancel_at_ms = now_ms() + 60'000;
+        for (const NewJob& job : {runs, waits, later}) REQUIRE(s.add(job) == Admission::queued);
+        const auto claim = s.store.claim(long_lease).value();
+        CHECK(s.store.sweep(false, "{}").changed.size() == 2);
+        CHECK(s.state("A") == JobState::canceling);
+        CHECK(s.state("B") == JobState::canceled);
+        CHECK(s.state("C") == JobState::queued);
+        CHECK(s.store.release(claim.lease, Release::unfinished) == JobState::canceled);
+        CHECK(s.store.find("", "A")->reason == "deadline");
+    }
+
+    TEST_CASE("full queues take nothing, of all and of one owner") {
+        TestStore s;
+        const QueueLimits limits{3, 2};
+        CHECK(s.add(new_job("A", "key"), limits) == Admission::queued);
+        CHECK(s.add(new_job("B", "key"), limits) == Admission::queued);
+        CHECK(s.add(new_job("C", "key"), limits) == Admission::owner_queue_full);
+        CHECK(s.add(new_job("D", "other"), limits) == Admission::queued);
+        CHECK(s.add(new_job("E", "other"), limits) == Admission::queue_full);
+        CHECK_FALSE(s.store.find("", "E").has_value());
+        (void)s.store.claim(long_lease);
+        CHECK(s.add(new_job("F", "other"), limits) == Admission::queued);
+    }
+
+    TEST_CASE("the same key with the same job is a repetition, with another it is refused") {
+        TestStore s;
+        NewJob job = new_job("A");
+        job.idempotency_key = "order-1";
+        CHECK(s.add(job) == Admission::queued);
+        NewJob again = job;
+        again.id = "B";
+        CHECK(s.store.add(again, {}).id == "A");
+        CHECK(s.add(again) == Admission::repeated);
+        again.fingerprint = "another";
+        CHECK(s.add(again) == Admission::key_reused);
+        again.owner = "somebody else";
+        CHECK(s.add(again) == Admission::queued);
+        CHECK(s.add(new_job("A")) == Admission::repeated);
+        NewJob taken = new_job("A");
+        taken.fingerprint = "another";
+        CHECK(s.add(taken) == Admission::id_taken);
+    }
+
+    TEST_CASE("owners see their own jobs only") {
+        TestStore s;
+        REQUIRE(s.add(new_job("A", "one")) == Admission::queued);
+        CHECK_FALSE(s.store.find("two", "A").has_value());
+        CHECK_FALSE(s.store.cancel("two", "A").has_value());
+        CHECK_FALSE(s.store.remove("two", "A").has_value());
+        CHECK(s.store.list("two", {}).jobs.empty());
+        CHECK(s.store.find("one", "A").has_value());
+        CHECK(s.store.remove("one", "A").has_value());
+    }
+
+    TEST_CASE("a list goes on where it stopped, with its filters") {
+        TestStore s;
+        for (int i = 0; i < 25; ++i) {
+            NewJob job = new_job("J" + std::to_string(i));
+            job.tag = i % 2 == 0 ? "even" : "odd";
+            REQUIRE(s.add(job) == Admission::queued);
+        }
+        JobFilter filter;
+        filter.limit = 5;
+        filter.tag = "even";
+        std::set<std::string> seen;
+        int pages = 0;
+        for (;; ++pages) {
+            const JobList list = s.store.list("", filter);
+            for (const JobRecord& job : list.jobs) {
+                CHECK(job.tag == "even");
+                CHECK(seen.insert(job.id).second);
+            }
+            if (!list.next) break;
+            filter.before = list.next;
+        }
+        CHECK(seen.size() == 13);
+        CHECK(pages == 2);
+        filter = {};
+        filter.state = JobState::running;
+        CHECK(s.store.list("", filter).jobs.empty());
+    }
+
+    TEST_CASE("results and jobs are forgotten when their time is over, and the job remembered") {
+        TestStore s(Retention{-1, 3600'000});
+        REQUIRE(s.add(new_job("A")) == Admission::queued);
+        CHECK(s.store.finish(s.store.claim(long_lease)->lease, success("blob")));
+        CHECK(s.store.needs_blob("blob"));
+        CHECK(s.store.sweep(false, "{}").blobs == std::vector<std::string>{"blob"});
+        CHECK_FALSE(s.store.needs_blob("blob"));
+        CHECK(s.state("A") == JobState::succeeded);
+
+        SqliteStore strict(s.database, Retention{-1, -1});
+        (void)strict.sweep(false, "{}");
+        CHECK_FALSE(strict.find("", "A").has_value());
+        CHECK(strict.is_expired("", "A"));
+        CHECK_FALSE(strict.is_expired("somebody", "A"));
+        CHECK_FALSE(strict.is_expired("", "B"));
+    }
+
+    TEST_CASE("a model is needed until its job has ended") {
+        TestStore s;
+        REQUIRE(s.add(new_job("A")) == Admission::queued);
+        CHECK(s.store.needs_blob("model-A"));
+        const auto claim = s.store.claim(long_lease).value();
+        CHECK(s.store.needs_blob("model-A"));
+        CHECK(s.store.finish(claim.lease, failure()) == JobState::failed);
+        CHECK_FALSE(s.store.needs_blob("model-A"));
+        CHECK(s.store.remove("", "A").has_value());
+        CHECK_FALSE(s.store.remove("", "A").has_value());
+    }
+
+    TEST_CASE("of many workers exactly one gets each job") {
+        TestStore s;
+        constexpr int jobs = 60;
+        std::atomic<int> finished{0};
+        std::vector<std::thread> workers;
+        for (int w = 0; w < 4; ++w) {
+            workers.emplace_back([&] {
+                while (finished < jobs) {
+                    const auto claim = s.store.claim(long_lease);
+                    if (claim && s.store.finish(claim->lease, failure())) ++finished;
+                }
+            });
+        }
+        for (int i = 0; i < jobs; ++i) {
+            CHECK(s.add(new_job("J" + std::to_string(i))) == Admission::queued);
+        }
+        for (std::thread& worker : workers) worker.join();
+        CHECK(finished == jobs);
+        for (int i = 0; i < jobs; ++i)
+            CHECK(s.store.find("", "J" + std::to_string(i))->attempt == 1);
+    }
+
+    TEST_CASE("a database of a newer program is left alone") {
+        lastflat::test::TemporaryFolder folder;
+        { SqliteDatabase database(folder.path() / "jobs.sqlite"); }
+        SQLite::Database(folder.path() / "jobs.sqlite", SQLite::OPEN_READWRITE)
+            .exec("PRAGMA user_version=99");
+        CHECK_THROWS_AS(SqliteDatabase(folder.path() / "jobs.sqlite"), StoreError);
+    }
+}
+
+}  // namespace lastflat::server
