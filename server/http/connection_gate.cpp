@@ -40,11 +40,6 @@ bool is_temporary(int error) {
     return error == EAGAIN || error == EWOULDBLOCK || error == EINTR;
 }
 
-Socket checked(int fd, const char* what) {
-    if (fd < 0) throw std::system_error(errno, std::generic_category(), what);
-    return Socket(fd);
-}
-
 }  // namespace
 
 ConnectionGate::ConnectionGate(const ServerLimits& limits, HeadHandler on_head,
@@ -53,8 +48,8 @@ ConnectionGate::ConnectionGate(const ServerLimits& limits, HeadHandler on_head,
       most_connections_(most_connections(limits)),
       on_head_(std::move(on_head)),
       write_refusal_(std::move(write_refusal)),
-      epoll_(checked(::epoll_create1(EPOLL_CLOEXEC), "epoll_create1")),
-      waker_(checked(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd")) {
+      epoll_(server::checked(::epoll_create1(EPOLL_CLOEXEC), "epoll_create1")),
+      waker_(server::checked(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd")) {
     epoll_event event{};
     event.events = EPOLLIN;
     event.data.ptr = nullptr;  // the waker; connections have their address here

@@ -6,30 +6,12 @@
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <utility>
 
 namespace lastflat::http {
-
-Socket& Socket::operator=(Socket&& other) noexcept {
-    if (this != &other) {
-        close();
-        fd_ = other.release();
-    }
-    return *this;
-}
-
-int Socket::release() {
-    return std::exchange(fd_, -1);
-}
-
-void Socket::close() {
-    if (fd_ >= 0) ::close(release());
-}
 
 bool wait_for(int fd, SocketEvent event, Clock::time_point deadline, const StopTime& stop_time) {
     // The stop time may move while we wait, so it is looked at several times a second.

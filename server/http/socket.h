@@ -1,4 +1,4 @@
-// A connected socket that closes itself, and reading and writing it against a deadline.
+// Waiting for a connected socket against a deadline.
 #pragma once
 
 #include <atomic>
@@ -7,29 +7,13 @@
 #include <string>
 #include <string_view>
 
+#include "server/support/descriptor.h"
+
 namespace lastflat::http {
 
 using Clock = std::chrono::steady_clock;
 
-/// Owns a file descriptor.
-class Socket {
-public:
-    Socket() = default;
-    explicit Socket(int fd) : fd_(fd) {}
-    ~Socket() { close(); }
-    Socket(Socket&& other) noexcept : fd_(other.release()) {}
-    Socket& operator=(Socket&& other) noexcept;
-    Socket(const Socket&) = delete;
-    Socket& operator=(const Socket&) = delete;
-
-    [[nodiscard]] int fd() const { return fd_; }
-    [[nodiscard]] bool is_open() const { return fd_ >= 0; }
-    int release();
-    void close();
-
-private:
-    int fd_ = -1;
-};
+using Socket = server::Descriptor;
 
 /// When the server wants all connections to be over: later than anything until it stops.
 class StopTime {

@@ -1,15 +1,9 @@
 #include "server/jobs/job.h"
 
-#include <chrono>
-
+#include "server/support/clock.h"
 #include "server/support/crypto.h"
 
 namespace lastflat::server {
-
-std::int64_t now_ms() {
-    using namespace std::chrono;
-    return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
-}
 
 std::string new_job_id() {
     constexpr char alphabet[] = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";

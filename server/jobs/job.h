@@ -64,7 +64,4 @@ struct JobOutcome {
 /// 26 characters that sort by time and cannot be guessed (a ULID).
 [[nodiscard]] std::string new_job_id();
 
-/// Milliseconds since 1970.
-[[nodiscard]] std::int64_t now_ms();
-
 }  // namespace lastflat::server

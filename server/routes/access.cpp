@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "server/jobs/job.h"
 #include "server/routes/answers.h"
+#include "server/support/clock.h"
 #include "server/support/files.h"
 
 namespace lastflat::server {

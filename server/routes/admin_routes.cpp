@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/routes/answers.h"
+#include "server/support/clock.h"
 #include "server/support/version.h"
 
 namespace lastflat::server {

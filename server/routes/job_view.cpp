@@ -4,6 +4,7 @@
 
 #include "api/job.h"
 #include "server/routes/answers.h"
+#include "server/support/clock.h"
 #include "server/support/crypto.h"
 
 namespace lastflat::server {

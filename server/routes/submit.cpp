@@ -2,6 +2,7 @@
 
 #include "server/routes/job_view.h"
 #include "server/routes/webhook_routes.h"
+#include "server/support/clock.h"
 #include "server/support/crypto.h"
 #include "server/support/duration.h"
 

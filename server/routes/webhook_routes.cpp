@@ -8,6 +8,7 @@
 #include "api/webhook_request.h"
 #include "server/jobs/job.h"
 #include "server/routes/answers.h"
+#include "server/support/clock.h"
 #include "server/support/crypto.h"
 #include "server/webhooks/post_message.h"
 

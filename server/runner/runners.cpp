@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "server/support/crypto.h"
+#include "server/support/scope_exit.h"
 
 namespace lastflat::server {
 namespace {
@@ -52,11 +53,10 @@ Inquiry inquiry(const Settings& settings, const std::filesystem::path& work,
             if (ends()) return end;
         }
         const std::filesystem::path file = work / ("inquiry-" + new_job_id());
-        const auto clear = [&](void*) {
+        const ScopeExit clear([&] {
             unlink(file.c_str());
             slots->release();
-        };
-        const std::unique_ptr<void, decltype(clear)> at_end(slots.get(), clear);
+        });
         write_durably(file, model);
         WorkOrder order;
         order.task = task;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/problem_json.h"
+#include "server/support/clock.h"
 
 namespace lastflat::server {
 namespace {

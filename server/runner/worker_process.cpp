@@ -14,7 +14,8 @@
 #include <cstring>
 #include <filesystem>
 #include <system_error>
-#include <utility>
+
+#include "server/support/descriptor.h"
 
 namespace lastflat::server {
 namespace {
@@ -25,25 +26,6 @@ constexpr int look_ms = 50;
 constexpr std::size_t most_message_bytes = 64u << 20;
 constexpr std::size_t most_said_bytes = 4096;
 
-[[noreturn]] void fail(const char* what) {
-    throw std::system_error(errno, std::generic_category(), what);
-}
-
-class Descriptor {
-public:
-    explicit Descriptor(int fd) : fd_(fd) {}
-    ~Descriptor() { close(); }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    [[nodiscard]] int fd() const { return fd_; }
-    void close() {
-        if (fd_ >= 0) ::close(std::exchange(fd_, -1));
-    }
-
-private:
-    int fd_;
-};
-
 struct Pipe {
     Pipe() : Pipe(make()) {}
     Descriptor from, to;
@@ -52,28 +34,25 @@ private:
     explicit Pipe(std::array<int, 2> ends) : from(ends[0]), to(ends[1]) {}
     static std::array<int, 2> make() {
         std::array<int, 2> ends{};
-        if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("pipe2");
+        if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+            throw std::system_error(errno, std::generic_category(), "pipe2");
         ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
         return ends;
     }
 };
 
 /// A file without a name: a pipe would block on a worker that does not read.
-int order_file(const WorkOrder& order) {
-    const int fd = ::memfd_create("order", MFD_CLOEXEC);
-    if (fd < 0) fail("memfd_create");
+Descriptor order_file(const WorkOrder& order) {
+    Descriptor file = checked(::memfd_create("order", MFD_CLOEXEC), "memfd_create");
     const std::string line = to_line(order);
     std::size_t done = 0;
     while (done < line.size()) {
-        const ssize_t written = ::write(fd, line.data() + done, line.size() - done);
-        if (written <= 0) {
-            ::close(fd);
-            fail("write");
-        }
+        const ssize_t written = ::write(file.fd(), line.data() + done, line.size() - done);
+        if (written <= 0) throw std::system_error(errno, std::generic_category(), "write");
         done += static_cast<std::size_t>(written);
     }
-    ::lseek(fd, 0, SEEK_SET);
-    return fd;
+    ::lseek(file.fd(), 0, SEEK_SET);
+    return file;
 }
 
 pid_t spawn(const std::string& program, int in, int out, int errors) {
@@ -102,10 +81,7 @@ pid_t spawn(const std::string& program, int in, int out, int errors) {
                                     arguments.data(), environment.data());
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
-    if (error != 0) {
-        errno = error;
-        fail("posix_spawn");
-    }
+    if (error != 0) throw std::system_error(error, std::generic_category(), "posix_spawn");
     return process;
 }
 
@@ -113,7 +89,7 @@ pid_t spawn(const std::string& program, int in, int out, int errors) {
 class Worker {
 public:
     Worker(const WorkOrder& order, const std::string& program) {
-        const Descriptor in(order_file(order));
+        const Descriptor in = order_file(order);
         process_ = spawn(program, in.fd(), messages_.to.fd(), errors_.to.fd());
         messages_.to.close();
         errors_.to.close();

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "server/support/files.h"
+#include "server/support/scope_exit.h"
 
 namespace lastflat::server {
 
@@ -114,28 +115,20 @@ public:
     template <class Work>
     auto read(Work work) {
         return timed(false, [&] {
-            const Reader reader(*this);
-            SQLite::Transaction transaction(reader.connection->database());
-            return work(*reader.connection);
+            auto connection = borrow();
+            const ScopeExit at_end([&] { give_back(std::move(connection)); });
+            SQLite::Transaction transaction(connection->database());
+            return work(*connection);
         });
     }
 
 private:
-    struct Reader {
-        explicit Reader(SqliteDatabase& of) : owner(of), connection(of.borrow()) {}
-        ~Reader() { owner.give_back(std::move(connection)); }
-        Reader(const Reader&) = delete;
-        Reader& operator=(const Reader&) = delete;
-        SqliteDatabase& owner;
-        std::unique_ptr<SqliteConnection> connection;
-    };
     template <class Work>
     auto timed(bool writes, Work work) {
         const double begun = seconds();
-        const auto end = [&](void*) {
+        const ScopeExit at_end([&] {
             if (clock_) clock_(writes, seconds() - begun);
-        };
-        const std::unique_ptr<void, decltype(end)> at_end(this, end);
+        });
         try {
             return work();
         } catch (const SQLite::Exception& error) {

@@ -1,6 +1,6 @@
 #include "server/storage/sqlite_accounts.h"
 
-#include "server/jobs/job.h"
+#include "server/support/clock.h"
 #include "server/support/crypto.h"
 
 namespace lastflat::server {

@@ -2,6 +2,7 @@
 
 #include "api/job.h"
 #include "server/jobs/result_parts.h"
+#include "server/support/clock.h"
 
 namespace lastflat::server {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "server/jobs/result_parts.h"
 #include "server/storage/sqlite_rows.h"
+#include "server/support/clock.h"
 #include "server/support/crypto.h"
 
 namespace lastflat::server {

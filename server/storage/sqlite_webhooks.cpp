@@ -1,7 +1,7 @@
 #include "server/storage/sqlite_webhooks.h"
 
-#include "server/jobs/job.h"
 #include "server/storage/sqlite_rows.h"
+#include "server/support/clock.h"
 
 namespace lastflat::server {
 namespace {

@@ -14,12 +14,8 @@ namespace lastflat::server {
 namespace fs = std::filesystem;
 
 File::File(const fs::path& path, int flags, int mode)
-    : path_(path), fd_(::open(path.c_str(), flags | O_CLOEXEC, mode)) {
-    if (fd_ < 0) fail("cannot open");
-}
-
-File::~File() {
-    if (fd_ >= 0) ::close(fd_);
+    : path_(path), descriptor_(::open(path.c_str(), flags | O_CLOEXEC, mode)) {
+    if (!descriptor_.is_open()) fail("cannot open");
 }
 
 void File::fail(const char* what) const {
@@ -28,7 +24,7 @@ void File::fail(const char* what) const {
 
 void File::write(std::string_view bytes) const {
     while (!bytes.empty()) {
-        const ssize_t done = ::write(fd_, bytes.data(), bytes.size());
+        const ssize_t done = ::write(fd(), bytes.data(), bytes.size());
         if (done < 0 && errno == EINTR) continue;
         if (done < 0) fail("cannot write");
         bytes.remove_prefix(static_cast<std::size_t>(done));
@@ -36,12 +32,12 @@ void File::write(std::string_view bytes) const {
 }
 
 void File::sync() const {
-    if (::fsync(fd_) != 0) fail("cannot sync");
+    if (::fsync(fd()) != 0) fail("cannot sync");
 }
 
 std::size_t File::size() const {
     struct stat status {};
-    if (::fstat(fd_, &status) != 0) fail("cannot look at");
+    if (::fstat(fd(), &status) != 0) fail("cannot look at");
     return static_cast<std::size_t>(status.st_size);
 }
 
@@ -50,7 +46,7 @@ std::string File::read(std::size_t offset, std::size_t size) const {
     std::size_t done = 0;
     while (done < size) {
         const ssize_t got =
-            ::pread(fd_, bytes.data() + done, size - done, static_cast<off_t>(offset + done));
+            ::pread(fd(), bytes.data() + done, size - done, static_cast<off_t>(offset + done));
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) fail("cannot read");
         if (got == 0) throw StoreError(path_.string() + " is shorter than it should be");

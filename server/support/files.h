@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "server/support/descriptor.h"
+
 namespace lastflat::server {
 
 /// The store cannot do its work now (a full or broken disk, a locked database). What was asked for
@@ -15,16 +17,13 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// A file descriptor that closes itself.
+/// An open file that knows its path, for those who have to be told what went wrong with it.
 class File {
 public:
     /// Throws: StoreError naming the path.
     File(const std::filesystem::path& path, int flags, int mode = 0600);
-    ~File();
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
 
-    [[nodiscard]] int fd() const { return fd_; }
+    [[nodiscard]] int fd() const { return descriptor_.fd(); }
     void write(std::string_view bytes) const;
     /// Until the disk has it.
     void sync() const;
@@ -35,7 +34,7 @@ public:
 private:
     [[noreturn]] void fail(const char* what) const;
     const std::filesystem::path path_;
-    int fd_ = -1;
+    const Descriptor descriptor_;
 };
 
 /// Makes a rename, a new name or a removal in the folder last.

@@ -4,7 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include "api/job.h"
-#include "server/jobs/job.h"
+#include "server/support/clock.h"
 
 namespace lastflat::server {
 

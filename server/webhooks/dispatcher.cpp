@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "server/jobs/job.h"
+#include "server/support/clock.h"
 #include "server/support/log.h"
 
 namespace lastflat::server {

@@ -9,7 +9,7 @@
 
 #include "api/base64.h"
 #include "api/webhook_request.h"
-#include "server/jobs/job.h"
+#include "server/support/clock.h"
 #include "server/support/crypto.h"
 #include "server/webhooks/private_address.h"
 

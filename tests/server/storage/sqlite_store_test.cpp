@@ -6,6 +6,7 @@
 #include <set>
 #include <thread>
 
+#include "server/support/clock.h"
 #include "tests/server/storage/test_store.h"
 
 namespace lastflat::server {

@@ -6,6 +6,7 @@
 
 #include "server/jobs/job.h"
 #include "server/storage/sqlite_webhooks.h"
+#include "server/support/clock.h"
 #include "server/webhooks/dispatcher.h"
 #include "server/webhooks/private_address.h"
 #include "tests/server/storage/test_store.h"
