@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "api/job.h"
-#include "server/storage/blob_store.h"
+#include "server/storage/blob_folder.h"
 #include "server/storage/sqlite_accounts.h"
 #include "server/storage/sqlite_store.h"
 
@@ -43,7 +43,7 @@ public:
     explicit Doctor(const std::string& data)
         : database_(database_of(data)),
           store_(database_, Retention{}),
-          blobs_(BlobStore::Looking{}, fs::path(data) / "blobs") {}
+          blobs_(BlobFolder::Looking{}, fs::path(data) / "blobs") {}
 
     std::size_t examine() {
         check_database();
@@ -97,7 +97,7 @@ private:
 
     SqliteDatabase database_;
     SqliteStore store_;
-    const BlobStore blobs_;
+    const BlobFolder blobs_;
     std::size_t jobs_ = 0, faults_ = 0;
 };
 

@@ -17,10 +17,14 @@
 #include "server/routes/batch_routes.h"
 #include "server/routes/document_routes.h"
 #include "server/routes/event_stream.h"
+#include "server/routes/job_list.h"
 #include "server/routes/job_routes.h"
 #include "server/routes/result_routes.h"
-#include "server/routes/service.h"
+#include "server/routes/submit_routes.h"
+#include "server/routes/validate_route.h"
 #include "server/routes/webhook_routes.h"
+#include "server/runner/runners.h"
+#include "server/storage/blob_folder.h"
 #include "server/storage/data_directory.h"
 #include "server/storage/sqlite_accounts.h"
 #include "server/storage/sqlite_store.h"
@@ -71,23 +75,6 @@ http::ServerLimits admin_limits() {
     return limits;
 }
 
-std::vector<http::Route> public_routes(Service& service, WebhookStore& webhooks) {
-    std::vector<http::Route> routes = job_routes(service);
-    const auto add = [&](std::vector<http::Route> more) {
-        routes.insert(routes.end(), std::make_move_iterator(more.begin()),
-                      std::make_move_iterator(more.end()));
-    };
-    add(result_routes(service));
-    add({event_route(service)});
-    add(asset_routes(service));
-    add(batch_routes(service));
-    add(webhook_routes(webhooks, service.settings));
-    add({health_route(service)});
-    add(document_routes());
-    add(preflight_routes(routes));
-    return routes;
-}
-
 http::ServerHooks hooks(Metrics& metrics) {
     http::ServerHooks hooks;
     hooks.problem = [](int status, std::string_view code, std::string_view detail) {
@@ -104,30 +91,17 @@ Settings with_workers(Settings settings) {
     return settings;
 }
 
+ProcessLimits process_limits(const Settings& settings) {
+    ProcessLimits limits;
+    limits.memory_mb = settings.job_memory_mb;
+    limits.time = std::chrono::milliseconds(settings.job_time_ms);
+    return limits;
+}
+
 /// Everything that the service consists of. A member uses only those above it.
 class App {
 public:
-    explicit App(const Settings& settings)
-        : settings_(with_workers(settings)),
-          data_(settings.data),
-          database_(data_.database(), sqlite_clock(metrics_)),
-          blobs_(data_.blobs()),
-          jobs_(database_, {settings.result_ms, settings.job_ms}),
-          recovered_jobs_(recover(jobs_, blobs_)),
-          workers_(jobs_, blobs_, watch_, {settings_.workers, settings.lease_ms, data_.work()},
-                   job_runner(settings_, blobs_), run_log(metrics_, estimate_)),
-          service_{settings_,
-                   jobs_,
-                   assets_,
-                   keys_,
-                   blobs_,
-                   watch_,
-                   workers_,
-                   estimate_,
-                   metrics_,
-                   inquiry(settings_, data_.work(), [this] { return watch_.is_closed(); }),
-                   keys_.secret("cursor")},
-          housekeeping_(service_) {
+    explicit App(const Settings& settings) : settings_(with_workers(settings)) {
         if (settings_.webhooks != WebhookTargets::none) {
             const bool anywhere = settings_.webhooks == WebhookTargets::anywhere;
             dispatcher_.emplace(webhooks_, [anywhere](const DueDelivery& due) {
@@ -139,10 +113,9 @@ public:
         with_access.origin_headers = [this](std::string_view origin) {
             return access_.origin_headers(origin);
         };
-        main_.emplace(public_routes(service_, webhooks_), public_limits(settings_), with_access,
-                      settings_.listen);
+        main_.emplace(public_routes(), public_limits(settings_), with_access, settings_.listen);
         if (settings_.admin)
-            admin_.emplace(admin_routes(service_), admin_limits(), hooks(metrics_),
+            admin_.emplace(admin_routes(admin_services_), admin_limits(), hooks(metrics_),
                            *settings_.admin);
     }
 
@@ -162,7 +135,7 @@ public:
     }
 
     void stop() {
-        service_.draining = true;
+        draining_ = true;
         workers_.stop(std::chrono::milliseconds(settings_.grace_ms));
         watch_.close(last_words);
         main_->stop();
@@ -172,23 +145,66 @@ public:
     }
 
 private:
+    [[nodiscard]] std::vector<http::Route> public_routes() {
+        std::vector<http::Route> routes = submit_routes({intake_, blobs_, view_, wait_});
+        const auto add = [&](std::vector<http::Route> more) {
+            routes.insert(routes.end(), std::make_move_iterator(more.begin()),
+                          std::make_move_iterator(more.end()));
+        };
+        add({job_list_route(jobs_, view_, keys_.secret("cursor"))});
+        add(job_routes({jobs_, control_, view_, wait_}));
+        add(result_routes({jobs_, blobs_, tasks_}));
+        add({event_route({jobs_, blobs_, watch_, view_, seats_})});
+        add(asset_routes(
+            {assets_, blobs_, jobs_, settings_.assets_per_key_mb, settings_.min_free_mb}));
+        add({validate_route({assets_, blobs_, tasks_, draining_})});
+        add(batch_routes({intake_, jobs_, view_}));
+        add(webhook_routes(webhooks_, settings_.webhooks != WebhookTargets::none));
+        add({health_route(admin_services_)});
+        add(document_routes());
+        add(preflight_routes(routes));
+        return routes;
+    }
+
     const Settings settings_;
-    const DataDirectory data_;
+    std::atomic<bool> draining_{false};
+    const DataDirectory data_{settings_.data};
     Metrics metrics_;
-    SqliteDatabase database_;
-    BlobStore blobs_;
-    SqliteStore jobs_;
+    SqliteDatabase database_{data_.database(), sqlite_clock(metrics_)};
+    const BlobFolder blobs_{data_.blobs()};
+    SqliteStore jobs_{database_, {settings_.result_ms, settings_.job_ms}};
     SqliteAssets assets_{database_};
     SqliteKeys keys_{database_};
     SqliteWebhooks webhooks_{database_};
     JobWatch watch_;
     Estimate estimate_;
-    const std::size_t recovered_jobs_;  ///< before any worker begins
-    WorkerPool workers_;
-    Service service_;
-    Housekeeping housekeeping_;
+    const std::size_t recovered_jobs_ = recover(jobs_, blobs_);  ///< before any worker begins
+    const ProcessLimits limits_ = process_limits(settings_);
+    WorkerPool workers_{jobs_,
+                        blobs_,
+                        watch_,
+                        {settings_.workers, settings_.lease_ms, data_.work()},
+                        job_runner(limits_, blobs_),
+                        run_log(metrics_, estimate_)};
+    JobControl control_{jobs_, blobs_, watch_, workers_};
+    JobIntake intake_{jobs_,
+                      assets_,
+                      blobs_,
+                      workers_,
+                      {{settings_.queue, settings_.queue_per_key},
+                       settings_.min_free_mb,
+                       settings_.webhooks != WebhookTargets::none},
+                      draining_};
+    Housekeeping housekeeping_{control_, blobs_, metrics_};
     std::optional<WebhookDispatcher> dispatcher_;
-    Access access_{keys_, settings_};
+    SeatsByKey seats_{settings_.streams};
+    const TaskAnswers tasks_{
+        seats_, task_runner(limits_, data_.work(), [this] { return watch_.is_closed(); })};
+    const JobView view_{watch_, estimate_, settings_.workers};
+    const JobWait wait_{jobs_, watch_, seats_, view_};
+    const AdminServices admin_services_{jobs_, metrics_, draining_, settings_.workers,
+                                        [this] { return workers_.busy(); }};
+    Access access_{keys_, {settings_.rate, settings_.allowed_origins}};
     std::optional<Listener> main_, admin_;
 };
 

@@ -18,8 +18,8 @@ std::size_t recover(JobStore& jobs, const BlobStore& blobs) {
     return swept.changed.size();
 }
 
-Housekeeping::Housekeeping(Service& service)
-    : service_(service), thread_([this] {
+Housekeeping::Housekeeping(JobControl& control, const BlobStore& blobs, Metrics& metrics)
+    : control_(control), blobs_(blobs), metrics_(metrics), thread_([this] {
           std::unique_lock lock(mutex_);
           while (!ended_.wait_for(lock, interval, [this] { return ending_; })) sweep();
       }) {}
@@ -38,23 +38,16 @@ void Housekeeping::sweep() {
     if (sweeps_ % sweeps_between_trims == 0) malloc_trim(0);
     try {
         if (sweeps_++ % sweeps_between_slow_looks == 0) look_slowly();
-        const Swept swept = service_.jobs.sweep(false, worker_lost_problem());
-        for (const std::string& id : swept.changed) {
-            service_.workers.cancel(id);
-            service_.watch.changed(id);
-        }
-        drop_unneeded(service_.blobs, service_.jobs, swept.blobs);
-        if (!swept.changed.empty()) service_.workers.wake();
+        control_.sweep();
     } catch (const std::exception& error) {
-        service_.metrics.count("lastflat_store_failures_total");
+        metrics_.count("lastflat_store_failures_total");
         log_event("store_failed", {{"why", error.what()}});
     }
 }
 
 void Housekeeping::look_slowly() {
-    service_.metrics.set("lastflat_stored_bytes", static_cast<double>(service_.blobs.bytes()));
-    service_.metrics.set("lastflat_disk_free_bytes",
-                         static_cast<double>(service_.blobs.free_bytes()));
+    metrics_.set("lastflat_stored_bytes", static_cast<double>(blobs_.bytes()));
+    metrics_.set("lastflat_disk_free_bytes", static_cast<double>(blobs_.free_bytes()));
 }
 
 }  // namespace lastflat::server

@@ -5,7 +5,8 @@
 #include <mutex>
 #include <thread>
 
-#include "server/routes/service.h"
+#include "server/jobs/job_control.h"
+#include "server/support/metrics.h"
 
 namespace lastflat::server {
 
@@ -14,12 +15,11 @@ namespace lastflat::server {
 /// Returns how many jobs there were.
 std::size_t recover(JobStore& jobs, const BlobStore& blobs);
 
-/// A thread that ends lost leases and overdue jobs, and forgets what is past its time, once a
-/// second.
+/// A thread that sweeps once a second.
 class Housekeeping {
 public:
-    /// `service` must outlive it.
-    explicit Housekeeping(Service& service);
+    /// All must outlive it.
+    Housekeeping(JobControl& control, const BlobStore& blobs, Metrics& metrics);
     ~Housekeeping();
     Housekeeping(const Housekeeping&) = delete;
     Housekeeping& operator=(const Housekeeping&) = delete;
@@ -29,7 +29,9 @@ private:
     /// What takes too long for every second.
     void look_slowly();
 
-    Service& service_;
+    JobControl& control_;
+    const BlobStore& blobs_;
+    Metrics& metrics_;
     std::size_t sweeps_ = 0;
     std::mutex mutex_;
     std::condition_variable ended_;

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/support/crypto.h"
+
 namespace lastflat::server {
 
 std::string to_json(const std::vector<ResultPart>& parts) {
@@ -24,6 +26,20 @@ std::vector<ResultPart> result_parts_of(std::string_view text) {
                          part.at("digest")});
     }
     return parts;
+}
+
+const ResultPart& result_part(const JobRecord& job, std::string_view format, bool gzip) {
+    for (const ResultPart& part : job.parts) {
+        if (part.format == format && part.gzip == gzip) return part;
+    }
+    throw CorruptBlob("the result of " + job.id + " has no part " + std::string(format));
+}
+
+std::string result_bytes(const BlobStore& blobs, const JobRecord& job, const ResultPart& part) {
+    std::string bytes = blobs.read(job.result, part.offset, part.size);
+    if (sha256(bytes) != part.digest)
+        throw CorruptBlob("the result of " + job.id + " has other bytes");
+    return bytes;
 }
 
 }  // namespace lastflat::server

@@ -6,9 +6,19 @@
 #include <vector>
 
 #include "server/jobs/job.h"
-#include "server/worker/run_job.h"
 
 namespace lastflat::server {
+
+struct Rendered {
+    std::string bytes;
+    std::string gzip;  ///< the same, compressed; empty unless asked for
+};
+
+/// A result in every format that it can be asked for.
+struct JobOutput {
+    Rendered json, svg, glb, obj;
+    Rendered metrics;  ///< the JSON without coordinates
+};
 
 struct ResultPack {
     std::string digest;  ///< SHA-256 of the file

@@ -4,8 +4,7 @@
 //   worker -> service   {"stage": "cut", "fraction": 0.2}            any number of times
 //                       {"digest": "...", "parts": [...]}            the end: a result in `result`
 //                       {"problem": {...}}                           the end: the job has failed
-//                       {"report": {...}}                            the end of a validation or a
-//                       mapping
+//                       {"report": {...}}                            the end of any other task
 //                       {"retry": "why"}                             the end: not the job's fault
 #pragma once
 
@@ -19,8 +18,8 @@ namespace lastflat::server {
 
 enum class Task {
     flatten,
-    validate,  ///< only load and check
-    map        ///< between last and pattern; the model is a result's OBJ
+    inspect,  ///< only load and check
+    map       ///< between last and pattern; the model is a result's OBJ
 };
 
 struct WorkOrder {

@@ -54,7 +54,7 @@ std::optional<http::Response> Access::check_key(http::Request& request) {
 }
 
 std::optional<http::Response> Access::count(http::Request& request) {
-    if (settings_.rate == 0 || request.principal.empty()) return std::nullopt;
+    if (rules_.rate == 0 || request.principal.empty()) return std::nullopt;
     std::size_t left = 0;
     bool over = false;
     std::int64_t seconds = 0;
@@ -63,26 +63,26 @@ std::optional<http::Response> Access::count(http::Request& request) {
         Window& window = windows_[request.principal];
         const std::int64_t now = now_ms();
         if (now - window.begin_ms >= window_ms || now < window.begin_ms) window = {now, 0};
-        over = window.requests >= settings_.rate;
+        over = window.requests >= rules_.rate;
         if (!over) ++window.requests;
-        left = settings_.rate - window.requests;
+        left = rules_.rate - window.requests;
         seconds = (window.begin_ms + window_ms - now + 999) / 1000;
     }
-    request.answer_headers.emplace_back(
-        "RateLimit-Policy", "\"default\";q=" + std::to_string(settings_.rate) + ";w=60");
+    request.answer_headers.emplace_back("RateLimit-Policy",
+                                        "\"default\";q=" + std::to_string(rules_.rate) + ";w=60");
     request.answer_headers.emplace_back(
         "RateLimit", "\"default\";r=" + std::to_string(left) + ";t=" + std::to_string(seconds));
     if (!over) return std::nullopt;
     http::Response response = problem(
         429, "rate_exceeded",
-        "this API key may send " + std::to_string(settings_.rate) + " requests a minute (--rate)");
+        "this API key may send " + std::to_string(rules_.rate) + " requests a minute (--rate)");
     response.headers.emplace_back("Retry-After", std::to_string(seconds));
     return response;
 }
 
 std::vector<std::pair<std::string, std::string>> Access::origin_headers(
     std::string_view origin) const {
-    const auto& allowed = settings_.allowed_origins;
+    const auto& allowed = rules_.allowed_origins;
     if (allowed.empty()) return {};
     std::vector<std::pair<std::string, std::string>> headers{{"Vary", "Origin"}};
     if (origin.empty() || std::find(allowed.begin(), allowed.end(), origin) == allowed.end())

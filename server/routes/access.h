@@ -4,18 +4,22 @@
 #include <map>
 #include <mutex>
 
-#include "server/cli/settings.h"
 #include "server/http/http.h"
 #include "server/jobs/key_store.h"
 
 namespace lastflat::server {
 
+struct AccessRules {
+    std::size_t rate = 6000;                   ///< requests of one key in a minute; 0: any number
+    std::vector<std::string> allowed_origins;  ///< web pages that may call (CORS)
+};
+
 /// Decides about every request before its body is read. With at least one key, every path under
 /// /v1 needs a good one; without any, only clients on this machine are answered.
 class Access {
 public:
-    /// Both must outlive it.
-    Access(KeyStore& keys, const Settings& settings) : keys_(keys), settings_(settings) {}
+    /// `keys` must outlive it.
+    Access(KeyStore& keys, AccessRules rules) : keys_(keys), rules_(std::move(rules)) {}
 
     /// Sets the principal and the headers of the answer; an answer that ends the request, or
     /// nothing.
@@ -34,7 +38,7 @@ private:
         std::size_t requests = 0;
     };
     KeyStore& keys_;
-    const Settings& settings_;
+    const AccessRules rules_;
     std::mutex mutex_;
     std::map<std::string, Window> windows_;  ///< by key
 };

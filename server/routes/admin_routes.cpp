@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A store that fails is said, but is no reason to restart the process: the answer is still 200.
-http::Response health(Service& service) {
+http::Response health(const AdminServices& service) {
     Json json{{"status", service.draining ? "draining" : "ok"}, {"version", version}};
     try {
         const JobCounts counts = service.jobs.counts();
@@ -23,7 +23,7 @@ http::Response health(Service& service) {
     return json_response(200, json.dump());
 }
 
-http::Response readiness(Service& service) {
+http::Response readiness(const AdminServices& service) {
     const JobCounts counts = service.jobs.counts();
     if (service.draining) refuse(503, "draining", "the service is ending");
     const Json json{{"status", "ready"},
@@ -31,7 +31,7 @@ http::Response readiness(Service& service) {
     return json_response(200, json.dump());
 }
 
-http::Response metrics(Service& service) {
+http::Response metrics(const AdminServices& service) {
     const JobCounts counts = service.jobs.counts();
     Metrics& metrics = service.metrics;
     metrics.set("lastflat_jobs_queued", static_cast<double>(counts.queued));
@@ -40,8 +40,8 @@ http::Response metrics(Service& service) {
                 counts.oldest_queued_ms
                     ? static_cast<double>(now_ms() - *counts.oldest_queued_ms) / 1000.0
                     : 0.0);
-    metrics.set("lastflat_workers", static_cast<double>(service.settings.workers));
-    metrics.set("lastflat_workers_busy", static_cast<double>(service.workers.busy()));
+    metrics.set("lastflat_workers", static_cast<double>(service.workers));
+    metrics.set("lastflat_workers_busy", static_cast<double>(service.busy_workers()));
     http::Response response = json_response(200, metrics.text());
     response.media_type = "text/plain; version=0.0.4; charset=utf-8";
     return response;
@@ -49,17 +49,16 @@ http::Response metrics(Service& service) {
 
 }  // namespace
 
-http::Route health_route(Service& service) {
-    return {"GET", "/healthz", [&service](const http::Request&) { return health(service); }, false,
+http::Route health_route(const AdminServices& service) {
+    return {"GET", "/healthz", [service](const http::Request&) { return health(service); }, false,
             true};
 }
 
-std::vector<http::Route> admin_routes(Service& service) {
+std::vector<http::Route> admin_routes(const AdminServices& service) {
     return {
         health_route(service),
-        {"GET", "/readyz",
-         guarded([&service](const http::Request&) { return readiness(service); })},
-        {"GET", "/metrics", guarded([&service](const http::Request&) { return metrics(service); })},
+        {"GET", "/readyz", guarded([service](const http::Request&) { return readiness(service); })},
+        {"GET", "/metrics", guarded([service](const http::Request&) { return metrics(service); })},
         {"GET", "/version", [](const http::Request&) {
              return json_response(200, Json{{"version", version}}.dump());
          }}};

@@ -5,7 +5,8 @@
 
 #include "api/object_reader.h"
 #include "core/error.h"
-#include "server/storage/blob_store.h"
+#include "server/jobs/blob_store.h"
+#include "server/support/files.h"
 #include "server/worker/problem_map.h"
 
 namespace lastflat::server {
@@ -28,10 +29,6 @@ std::string_view opaque(std::string_view tag) {
 }
 
 }  // namespace
-
-void refuse(int status, const char* code, const std::string& detail) {
-    throw Refusal({status, code, "", detail, std::nullopt, std::nullopt});
-}
 
 http::Response json_response(int status, std::string body) {
     http::Response response;

@@ -1,26 +1,12 @@
 // What answers have in common.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 
-#include "api/problem.h"
 #include "server/http/http.h"
+#include "server/jobs/refusal.h"
 
 namespace lastflat::server {
-
-/// A request that cannot be met; becomes its problem document.
-class Refusal : public std::runtime_error {
-public:
-    explicit Refusal(api::Problem problem)
-        : std::runtime_error(problem.detail), problem_(std::move(problem)) {}
-    [[nodiscard]] const api::Problem& problem() const { return problem_; }
-
-private:
-    api::Problem problem_;
-};
-
-[[noreturn]] void refuse(int status, const char* code, const std::string& detail);
 
 [[nodiscard]] http::Response json_response(int status, std::string body);
 [[nodiscard]] http::Response empty_response(int status);

@@ -4,10 +4,9 @@
 
 #include "api/base64.h"
 #include "api/job.h"
+#include "server/jobs/job_control.h"
+#include "server/jobs/job_intake.h"
 #include "server/routes/answers.h"
-#include "server/routes/inquire.h"
-#include "server/routes/submission.h"
-#include "server/routes/submit.h"
 #include "server/support/crypto.h"
 
 namespace lastflat::server {
@@ -50,14 +49,14 @@ void check_digest(const Request& request, const std::string& bytes) {
     refuse(404, "asset_not_found", "there is no asset " + id + "; it may have been deleted");
 }
 
-Response list_assets(Service& service, const Request& request) {
+Response list_assets(const AssetServices& service, const Request& request) {
     Json items = Json::array();
     for (const Asset& asset : service.assets.list(request.principal))
         items.push_back(asset_json(asset));
     return json_response(200, Json{{"items", std::move(items)}}.dump());
 }
 
-Response add_asset(Service& service, const Request& request) {
+Response add_asset(const AssetServices& service, const Request& request) {
     const http::BodyPart* model = nullptr;
     for (const http::BodyPart& part : request.body) {
         if (part.name.empty() || part.name == "model") model = &part;
@@ -65,9 +64,9 @@ Response add_asset(Service& service, const Request& request) {
     if (model == nullptr || model->bytes.empty())
         refuse(422, "model_missing", "the model is empty: send it as the body or the part 'model'");
     check_digest(request, model->bytes);
-    check_room(service);
+    check_room(service.blobs, service.min_free_mb);
     AssetLimits limits;
-    limits.bytes = service.settings.assets_per_key_mb << 20;
+    limits.bytes = service.assets_per_key_mb << 20;
     std::string digest;
     AssetAdmission admission{};
     {
@@ -79,7 +78,7 @@ Response add_asset(Service& service, const Request& request) {
         drop_unneeded(service.blobs, service.jobs, {digest});
         refuse(507, "assets_full",
                "with this asset there would be more than " +
-                   std::to_string(service.settings.assets_per_key_mb) + " MiB or " +
+                   std::to_string(service.assets_per_key_mb) + " MiB or " +
                    std::to_string(limits.count) +
                    " assets of this API key (the limit --assets-per-key-mb); delete some: "
                    "GET /v1/assets lists them");
@@ -91,45 +90,34 @@ Response add_asset(Service& service, const Request& request) {
     return response;
 }
 
-Response get_asset(Service& service, const Request& request) {
+Response get_asset(const AssetServices& service, const Request& request) {
     const std::string& id = request.captures.at(0);
     const auto asset = service.assets.find(request.principal, id);
     if (!asset) refuse_unknown(id);
     return asset_response(200, *asset);
 }
 
-Response remove_asset(Service& service, const Request& request) {
+Response remove_asset(const AssetServices& service, const Request& request) {
     const std::string& id = request.captures.at(0);
     if (!service.assets.remove(request.principal, id)) refuse_unknown(id);
     drop_unneeded(service.blobs, service.jobs, {id});
     return empty_response(204);
 }
 
-Response validate(Service& service, const Request& request) {
-    if (service.draining) refuse(503, "draining", "the service is ending; try again later");
-    Submission submission = read_submission(request);
-    if (!submission.asset.empty()) {
-        if (!service.assets.find(request.principal, submission.asset))
-            refuse(422, "asset_not_found", "there is no asset " + submission.asset.substr(0, 80));
-        submission.model = service.blobs.read(submission.asset);
-    }
-    return inquire(service, request, Task::validate, submission.model, submission.request);
-}
-
 }  // namespace
 
-std::vector<http::Route> asset_routes(Service& service) {
+std::vector<http::Route> asset_routes(const AssetServices& service) {
     const auto route = [&](const char* method, const char* pattern,
-                           Response (*handle)(Service&, const Request&), bool takes_body = false) {
-        return http::Route{method, pattern, guarded([&service, handle](const Request& request) {
+                           Response (*handle)(const AssetServices&, const Request&),
+                           bool takes_body = false) {
+        return http::Route{method, pattern, guarded([service, handle](const Request& request) {
                                return handle(service, request);
                            }),
                            takes_body};
     };
     return {route("POST", "/v1/assets", add_asset, true), route("GET", "/v1/assets", list_assets),
             route("GET", "/v1/assets/{digest}", get_asset),
-            route("DELETE", "/v1/assets/{digest}", remove_asset),
-            route("POST", "/v1/validate", validate, true)};
+            route("DELETE", "/v1/assets/{digest}", remove_asset)};
 }
 
 }  // namespace lastflat::server

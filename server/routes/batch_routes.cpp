@@ -5,8 +5,7 @@
 #include "api/object_reader.h"
 #include "api/problem_json.h"
 #include "server/routes/answers.h"
-#include "server/routes/job_view.h"
-#include "server/routes/submit.h"
+#include "server/routes/submission.h"
 #include "server/worker/problem_map.h"
 
 namespace lastflat::server {
@@ -28,13 +27,15 @@ Json refused(const api::Problem& problem) {
     return item(problem.status, api::problem_json(problem));
 }
 
-Json submit_one(Service& service, const Request& request, const nlohmann::json& job,
+Json submit_one(const BatchServices& service, const Request& request, const nlohmann::json& job,
                 std::string& batch) {
     try {
-        const Submitted submitted =
-            submit(service, request, read_json_submission(job.dump()), "", batch);
+        Submission submission = read_json_submission(job.dump());
+        read_terms(request, submission);
+        submission.batch = batch;
+        const Submitted submitted = service.intake.submit(submission);
         if (submitted.repeated) batch = submitted.job.batch;
-        return item(submitted.repeated ? 200 : 202, Json::parse(job_json(service, submitted.job)));
+        return item(submitted.repeated ? 200 : 202, Json::parse(service.view.json(submitted.job)));
     } catch (const Refusal& refusal) {
         return refused(refusal.problem());
     } catch (const api::InvalidRequest& invalid) {
@@ -64,7 +65,7 @@ private:
     const std::string key_;
 };
 
-Response post_batch(Service& service, const Request& request) {
+Response post_batch(const BatchServices& service, const Request& request) {
     if (request.body.empty() || request.body.front().media_type != "application/json")
         refuse(415, "media_type_unsupported", "a batch is sent as application/json");
     const auto document = api::parse_json(request.body.front().bytes, deepest_batch);
@@ -91,7 +92,7 @@ Response post_batch(Service& service, const Request& request) {
     return response;
 }
 
-Response get_batch(Service& service, const Request& request) {
+Response get_batch(const BatchServices& service, const Request& request) {
     const std::string& id = request.captures.at(0);
     JobFilter filter;
     filter.batch = id;
@@ -103,7 +104,7 @@ Response get_batch(Service& service, const Request& request) {
     Json counts = Json::object();
     bool finished = true;
     for (auto job = list.jobs.rbegin(); job != list.jobs.rend(); ++job) {
-        items.push_back(Json::parse(job_json(service, *job)));
+        items.push_back(Json::parse(service.view.json(*job)));
         const std::string state(name(job->state));
         counts[state] = counts.value(state, 0) + 1;
         finished = finished && is_final(job->state);
@@ -117,12 +118,12 @@ Response get_batch(Service& service, const Request& request) {
 
 }  // namespace
 
-std::vector<http::Route> batch_routes(Service& service) {
-    return {{"POST", "/v1/jobs:batch",
-             guarded([&service](const Request& request) { return post_batch(service, request); }),
-             true},
-            {"GET", "/v1/batches/{id}",
-             guarded([&service](const Request& request) { return get_batch(service, request); })}};
+std::vector<http::Route> batch_routes(const BatchServices& service) {
+    return {
+        {"POST", "/v1/jobs:batch",
+         guarded([service](const Request& request) { return post_batch(service, request); }), true},
+        {"GET", "/v1/batches/{id}",
+         guarded([service](const Request& request) { return get_batch(service, request); })}};
 }
 
 }  // namespace lastflat::server

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "api/job.h"
+#include "server/jobs/job_control.h"
+#include "server/jobs/result_parts.h"
 #include "server/routes/answers.h"
-#include "server/routes/job_view.h"
-#include "server/routes/waiting_place.h"
 
 namespace lastflat::server {
 namespace {
@@ -25,15 +25,15 @@ std::string event(std::string_view name, const std::string& id, const std::strin
 /// One client's view of one job. Lives on its connection's thread.
 class EventStream {
 public:
-    EventStream(Service& service, const http::Request& request, std::int64_t seen)
+    EventStream(const EventServices& service, const http::Request& request, std::int64_t seen)
         : service_(service),
           owner_(request.principal),
           id_(request.captures.at(0)),
-          place_(service, request),
+          seat_(service.seats, request),
           subscription_(service.watch, id_),
           seen_(seen) {}
 
-    [[nodiscard]] bool has_place() const { return place_.is_taken(); }
+    [[nodiscard]] bool has_seat() const { return seat_.is_taken(); }
 
     /// Sends what there is, or waits a while. False: it is over.
     bool step(const http::Write& write) {
@@ -60,7 +60,8 @@ private:
         };
         Json result;
         try {
-            result = Json::parse(result_bytes(service_, job, result_part(job, "metrics", false)));
+            result =
+                Json::parse(result_bytes(service_.blobs, job, result_part(job, "metrics", false)));
         } catch (const Refusal& refusal) {  // as whoever asks for the result will be told
             return log({{"level", "error"},
                         {"code", refusal.problem().code},
@@ -96,7 +97,7 @@ private:
         }
         if (is_final(job->state)) {
             news += remarks(*job);
-            news += event("done", std::to_string(job->revision), job_json(service_, *job));
+            news += event("done", std::to_string(job->revision), service_.view.json(*job));
             write(news);
             return false;
         }
@@ -112,9 +113,9 @@ private:
         return write(news);
     }
 
-    Service& service_;
+    const EventServices service_;
     const std::string owner_, id_;
-    const WaitingPlace place_;
+    const WaitingSeat seat_;
     JobWatch::Subscription subscription_;
     std::int64_t seen_;  ///< the last revision that the client has
     std::int64_t progress_seen_ = 0;
@@ -129,19 +130,19 @@ std::int64_t last_event(const http::Request& request) {
     return revision;
 }
 
-http::Response events(Service& service, const http::Request& request) {
+http::Response events(const EventServices& service, const http::Request& request) {
     const std::string_view accept = request.header("accept");
     const bool fits = accept.empty() || accept.find("text/event-stream") != std::string::npos ||
                       accept.find("text/*") != std::string::npos ||
                       accept.find("*/*") != std::string::npos;
     if (!fits)
         refuse(406, "not_acceptable", "this is text/event-stream; poll the job for JSON instead");
-    const JobRecord job = found_job(service, request.principal, request.captures.at(0));
+    const JobRecord job = found_job(service.jobs, request.principal, request.captures.at(0));
     const std::int64_t seen = last_event(request);
     // What an EventSource asks after the end; this answer keeps it from asking again and again.
     if (is_final(job.state) && seen >= job.revision) return empty_response(204);
     const auto stream = std::make_shared<EventStream>(service, request, seen);
-    if (!stream->has_place())
+    if (!stream->has_seat())
         refuse(503, "streams_full",
                "all event streams and long polls are taken, or this key's half of them (the limit "
                "--streams); poll the job");
@@ -155,9 +156,9 @@ http::Response events(Service& service, const http::Request& request) {
 
 }  // namespace
 
-http::Route event_route(Service& service) {
+http::Route event_route(const EventServices& service) {
     return {"GET", "/v1/jobs/{id}/events",
-            guarded([&service](const http::Request& request) { return events(service, request); })};
+            guarded([service](const http::Request& request) { return events(service, request); })};
 }
 
 }  // namespace lastflat::server

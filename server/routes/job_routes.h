@@ -1,12 +1,20 @@
-// Jobs: making, watching, listing, ending.
+// Jobs: watching, ending.
 #pragma once
 
-#include "server/http/http.h"
-#include "server/routes/service.h"
+#include "server/jobs/job_control.h"
+#include "server/routes/job_wait.h"
 
 namespace lastflat::server {
 
-/// `service` must outlive the routes.
-[[nodiscard]] std::vector<http::Route> job_routes(Service& service);
+/// What these routes work with; all must outlive them.
+struct JobServices {
+    JobStore& jobs;
+    JobControl& control;
+    const JobView& view;
+    const JobWait& wait;
+};
+
+/// GET and DELETE /v1/jobs/{id}, POST /v1/jobs/{id}/cancel.
+[[nodiscard]] std::vector<http::Route> job_routes(const JobServices& service);
 
 }  // namespace lastflat::server

@@ -1,24 +1,26 @@
-// A job as its clients see it.
+// Jobs as their clients see them.
 #pragma once
 
-#include "server/routes/service.h"
+#include "server/jobs/estimate.h"
+#include "server/jobs/job.h"
+#include "server/jobs/job_watch.h"
 
 namespace lastflat::server {
 
-/// The job; a 404 or 410 refusal if the principal has none of that id.
-[[nodiscard]] JobRecord found_job(const Service& service, const std::string& owner,
-                                  const std::string& id);
+class JobView {
+public:
+    /// Both must outlive it. `workers`: how many jobs run at once.
+    JobView(const JobWatch& watch, const Estimate& estimate, std::size_t workers)
+        : watch_(watch), estimate_(estimate), workers_(workers) {}
 
-[[nodiscard]] std::string job_json(const Service& service, const JobRecord& job);
+    [[nodiscard]] std::string json(const JobRecord& job) const;
+    /// Changes with every change of state and every step of the progress.
+    [[nodiscard]] std::string etag(const JobRecord& job) const;
 
-/// Changes with every change of state and every step of the progress.
-[[nodiscard]] std::string job_etag(const Service& service, const JobRecord& job);
-
-/// The plain bytes of one part of a job's result, checked against its digest.
-/// Throws: Refusal if there is no such part; StoreError; CorruptBlob.
-[[nodiscard]] std::string result_bytes(const Service& service, const JobRecord& job,
-                                       const ResultPart& part);
-[[nodiscard]] const ResultPart& result_part(const JobRecord& job, std::string_view format,
-                                            bool gzip);
+private:
+    const JobWatch& watch_;
+    const Estimate& estimate_;
+    const std::size_t workers_;
+};
 
 }  // namespace lastflat::server

@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/jobs/job_control.h"
+#include "server/jobs/result_parts.h"
 #include "server/routes/answers.h"
-#include "server/routes/inquire.h"
-#include "server/routes/job_view.h"
 #include "server/routes/result_format.h"
 
 namespace lastflat::server {
@@ -25,8 +25,8 @@ using http::Response;
     throw Refusal(answer);
 }
 
-JobRecord finished_job(const Service& service, const Request& request) {
-    JobRecord job = found_job(service, request.principal, request.captures.at(0));
+JobRecord finished_job(const ResultServices& service, const Request& request) {
+    JobRecord job = found_job(service.jobs, request.principal, request.captures.at(0));
     switch (job.state) {
         case JobState::succeeded: break;
         case JobState::failed: refuse_failed(job);
@@ -57,7 +57,7 @@ void cut_to_range(const Request& request, const std::string& etag, Response& res
         response.body->substr(range->first, range->last - range->first + 1));
 }
 
-Response part_response(const Service& service, const Request& request, const JobRecord& job,
+Response part_response(const ResultServices& service, const Request& request, const JobRecord& job,
                        std::string_view format, const std::string& type,
                        const std::string& file_name) {
     const bool gzip = accepts_gzip(request) && request.header("range").empty();
@@ -71,45 +71,45 @@ Response part_response(const Service& service, const Request& request, const Job
     if (gzip) response.headers.emplace_back("Content-Encoding", "gzip");
     response.headers.emplace_back("Content-Disposition", "inline; filename=\"" + file_name + "\"");
     if (has_already(request, etag)) return tagged(request, etag, std::move(response));
-    response.body = std::make_shared<const std::string>(result_bytes(service, job, part));
+    response.body = std::make_shared<const std::string>(result_bytes(service.blobs, job, part));
     if (!gzip) cut_to_range(request, etag, response);
     response.headers.emplace_back("ETag", etag);
     return response;
 }
 
-Response result_as(const Service& service, const Request& request, ResultFormat format) {
+Response result_as(const ResultServices& service, const Request& request, ResultFormat format) {
     const JobRecord job = finished_job(service, request);
     return part_response(service, request, job, name(format), media_type(format),
                          job.id + "." + std::string(name(format)));
 }
 
-Response map_points(Service& service, const Request& request) {
+Response map_points(const ResultServices& service, const Request& request) {
     const JobRecord job = finished_job(service, request);
     if (request.body.size() != 1 || request.body[0].media_type != "application/json")
         refuse(415, "media_type_unsupported", "what is to be mapped is JSON: application/json");
-    const std::string obj = result_bytes(service, job, result_part(job, "obj", false));
-    return inquire(service, request, Task::map, obj, request.body[0].bytes);
+    const std::string obj = result_bytes(service.blobs, job, result_part(job, "obj", false));
+    return service.tasks.answer(request, Task::map, obj, request.body[0].bytes);
 }
 
 }  // namespace
 
-std::vector<http::Route> result_routes(Service& service) {
+std::vector<http::Route> result_routes(const ResultServices& service) {
     std::vector<http::Route> routes{
-        {"GET", "/v1/jobs/{id}/result", guarded([&service](const Request& request) {
+        {"GET", "/v1/jobs/{id}/result", guarded([service](const Request& request) {
              return result_as(service, request, negotiated_format(request));
          })},
-        {"GET", "/v1/jobs/{id}/metrics", guarded([&service](const Request& request) {
+        {"GET", "/v1/jobs/{id}/metrics", guarded([service](const Request& request) {
              const JobRecord job = finished_job(service, request);
              return part_response(service, request, job, "metrics", "application/json",
                                   job.id + ".metrics.json");
          })},
         {"POST", "/v1/jobs/{id}/map",
-         guarded([&service](const Request& request) { return map_points(service, request); }),
+         guarded([service](const Request& request) { return map_points(service, request); }),
          true}};
     for (const ResultFormat format :
          {ResultFormat::json, ResultFormat::svg, ResultFormat::glb, ResultFormat::obj}) {
         routes.push_back({"GET", "/v1/jobs/{id}/result." + std::string(name(format)),
-                          guarded([&service, format](const Request& request) {
+                          guarded([service, format](const Request& request) {
                               return result_as(service, request, format);
                           })});
     }

@@ -1,12 +1,19 @@
 // Results: in the format that is wanted, or their measures alone.
 #pragma once
 
-#include "server/http/http.h"
-#include "server/routes/service.h"
+#include "server/jobs/blob_store.h"
+#include "server/jobs/job_store.h"
+#include "server/routes/task_answer.h"
 
 namespace lastflat::server {
 
-/// `service` must outlive the routes.
-[[nodiscard]] std::vector<http::Route> result_routes(Service& service);
+/// What these routes work with; all must outlive them.
+struct ResultServices {
+    JobStore& jobs;
+    const BlobStore& blobs;
+    const TaskAnswers& tasks;
+};
+
+[[nodiscard]] std::vector<http::Route> result_routes(const ResultServices& service);
 
 }  // namespace lastflat::server

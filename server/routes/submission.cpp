@@ -5,12 +5,16 @@
 #include "api/base64.h"
 #include "api/flatten_request.h"
 #include "api/object_reader.h"
+#include "server/jobs/refusal.h"
 #include "server/routes/side_files.h"
+#include "server/support/duration.h"
 #include "server/webhooks/post_message.h"
 #include "server/worker/translate.h"
 
 namespace lastflat::server {
 namespace {
+
+constexpr std::size_t longest_key = 255;
 
 /// Everything that can be found wrong without the model's geometry is found here.
 Submission checked(Submission submission, const api::FlattenRequest& request) {
@@ -85,6 +89,19 @@ bool is_form(const http::Request& request) {
                       [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; });
 }
 
+/// The key of a request; quoted as the draft has it, or bare.
+std::string idempotency_key(const http::Request& request) {
+    std::string_view key = request.header("idempotency-key");
+    if (key.size() >= 2 && key.front() == '"' && key.back() == '"')
+        key = key.substr(1, key.size() - 2);
+    if (key.empty() && request.headers.contains("idempotency-key"))
+        refuse(400, "header_invalid", "Idempotency-Key is empty");
+    if (key.size() > longest_key)
+        refuse(400, "header_invalid",
+               "Idempotency-Key has more than " + std::to_string(longest_key) + " bytes");
+    return std::string(key);
+}
+
 }  // namespace
 
 Submission read_json_submission(std::string_view text) {
@@ -106,6 +123,14 @@ Submission read_submission(const http::Request& request) {
     if (!request.body.empty() && request.body.front().media_type == "application/json")
         return read_json_submission(request.body.front().bytes);
     return from_model_alone(request);
+}
+
+void read_terms(const http::Request& request, Submission& submission) {
+    submission.owner = request.principal;
+    submission.idempotency_key = idempotency_key(request);
+    submission.cancel_after = request.header("cancel-after");
+    if (!submission.cancel_after.empty() && !duration_ms(submission.cancel_after))
+        refuse(400, "header_invalid", "Cancel-After is not a duration such as 90s, 2m or 1h");
 }
 
 }  // namespace lastflat::server

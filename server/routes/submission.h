@@ -2,18 +2,9 @@
 #pragma once
 
 #include "server/http/http.h"
-#include "server/jobs/job.h"
-#include "server/routes/answers.h"
+#include "server/jobs/job_intake.h"
 
 namespace lastflat::server {
-
-struct Submission {
-    std::string model;    ///< the bytes; empty if `asset` is given
-    std::string asset;    ///< digest of an asset
-    std::string request;  ///< the constraint JSON, valid; may be empty: every default
-    std::string tag;
-    std::optional<JobWebhook> webhook;
-};
 
 /// multipart/form-data with the parts `model` (and the `buffers` of a glTF, the `mtl` of an OBJ) or
 /// `asset_id` and, optional, `request`;
@@ -24,5 +15,9 @@ struct Submission {
 
 /// One submission as JSON: {"model": {"data" | "asset_id"}, "request": {...}, "webhook": {...}}.
 [[nodiscard]] Submission read_json_submission(std::string_view text);
+
+/// Who sends it, and what the headers Idempotency-Key and Cancel-After say of it.
+/// Throws: Refusal (400).
+void read_terms(const http::Request& request, Submission& submission);
 
 }  // namespace lastflat::server

@@ -6,7 +6,7 @@
 #include "api/job.h"
 #include "api/object_reader.h"
 #include "api/webhook_request.h"
-#include "server/jobs/job.h"
+#include "server/jobs/job_intake.h"
 #include "server/routes/answers.h"
 #include "server/support/clock.h"
 #include "server/support/crypto.h"
@@ -67,8 +67,8 @@ Webhook found(WebhookStore& webhooks, const Request& request) {
     return *webhook;
 }
 
-Response add_webhook(WebhookStore& webhooks, const Settings& settings, const Request& request) {
-    require_webhooks(settings);
+Response add_webhook(WebhookStore& webhooks, bool sends, const Request& request) {
+    require_webhooks(sends);
     Webhook webhook = read_webhook(request);
     if (webhooks.list(request.principal).size() >= most_webhooks)
         refuse(422, "too_many_webhooks",
@@ -100,8 +100,8 @@ Response deliveries(WebhookStore& webhooks, const Request& request) {
     return json_response(200, Json{{"items", std::move(items)}}.dump());
 }
 
-Response test_webhook(WebhookStore& webhooks, const Settings& settings, const Request& request) {
-    require_webhooks(settings);
+Response test_webhook(WebhookStore& webhooks, bool sends, const Request& request) {
+    require_webhooks(sends);
     const Webhook webhook = found(webhooks, request);
     if (!webhooks.add_test(webhook.id))
         refuse(429, "too_many_messages", "messages to this webhook are waiting already; see them");
@@ -116,26 +116,23 @@ Response remove_webhook(WebhookStore& webhooks, const Request& request) {
 
 }  // namespace
 
-void require_webhooks(const Settings& settings) {
-    if (settings.webhooks == WebhookTargets::none)
-        refuse(403, "webhooks_off",
-               "this service sends no webhooks (--webhooks off); poll instead");
-}
-
-std::vector<http::Route> webhook_routes(WebhookStore& webhooks, const Settings& settings) {
-    return {{"POST", "/v1/webhooks",
-             guarded([&](const Request& r) { return add_webhook(webhooks, settings, r); }), true},
+std::vector<http::Route> webhook_routes(WebhookStore& webhooks, bool sends) {
+    return {{"POST", "/v1/webhooks", guarded([&webhooks, sends](const Request& r) {
+                 return add_webhook(webhooks, sends, r);
+             }),
+             true},
             {"GET", "/v1/webhooks",
-             guarded([&](const Request& r) { return list_webhooks(webhooks, r); })},
-            {"GET", "/v1/webhooks/{id}", guarded([&](const Request& r) {
+             guarded([&webhooks](const Request& r) { return list_webhooks(webhooks, r); })},
+            {"GET", "/v1/webhooks/{id}", guarded([&webhooks](const Request& r) {
                  return json_response(200, webhook_json(found(webhooks, r)).dump());
              })},
             {"DELETE", "/v1/webhooks/{id}",
-             guarded([&](const Request& r) { return remove_webhook(webhooks, r); })},
-            {"POST", "/v1/webhooks/{id}/test",
-             guarded([&](const Request& r) { return test_webhook(webhooks, settings, r); })},
+             guarded([&webhooks](const Request& r) { return remove_webhook(webhooks, r); })},
+            {"POST", "/v1/webhooks/{id}/test", guarded([&webhooks, sends](const Request& r) {
+                 return test_webhook(webhooks, sends, r);
+             })},
             {"GET", "/v1/webhooks/{id}/deliveries",
-             guarded([&](const Request& r) { return deliveries(webhooks, r); })}};
+             guarded([&webhooks](const Request& r) { return deliveries(webhooks, r); })}};
 }
 
 }  // namespace lastflat::server

@@ -7,20 +7,14 @@
 #include <thread>
 
 #include "server/support/crypto.h"
+#include "server/support/files.h"
 #include "server/support/scope_exit.h"
 
 namespace lastflat::server {
 namespace {
 
-constexpr int most_inquiries = 2;
+constexpr int most_tasks = 2;
 constexpr std::chrono::milliseconds look_every{100};
-
-ProcessLimits process_limits(const Settings& settings) {
-    ProcessLimits limits;
-    limits.memory_mb = settings.job_memory_mb;
-    limits.time = std::chrono::milliseconds(settings.job_time_ms);
-    return limits;
-}
 
 }  // namespace
 
@@ -28,31 +22,30 @@ int hardware_threads() {
     return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-JobRunner job_runner(const Settings& settings, const BlobStore& blobs) {
-    return
-        [&blobs, limits = process_limits(settings)](
-            const Claim& claim, const std::filesystem::path& file, const ProcessControl& control) {
-            WorkOrder order;
-            order.model = blobs.path_of(claim.model);
-            order.digest = claim.model;
-            order.request = claim.request;
-            order.result = file;
-            order.threads = hardware_threads();
-            return run_worker_process(std::move(order), limits, control);
-        };
+JobRunner job_runner(const ProcessLimits& limits, const BlobStore& blobs) {
+    return [&blobs, limits](const Claim& claim, const std::filesystem::path& file,
+                            const ProcessControl& control) {
+        WorkOrder order;
+        order.model = blobs.path_of(claim.model);
+        order.digest = claim.model;
+        order.request = claim.request;
+        order.result = file;
+        order.threads = hardware_threads();
+        return run_worker_process(std::move(order), limits, control);
+    };
 }
 
-Inquiry inquiry(const Settings& settings, const std::filesystem::path& work,
-                std::function<bool()> ends) {
-    const auto slots = std::make_shared<std::counting_semaphore<>>(most_inquiries);
-    return [slots, work, ends = std::move(ends), limits = process_limits(settings)](
-               Task task, const std::string& model, const std::string& request) {
+TaskRunner task_runner(const ProcessLimits& limits, const std::filesystem::path& work,
+                       std::function<bool()> ends) {
+    const auto slots = std::make_shared<std::counting_semaphore<>>(most_tasks);
+    return [slots, work, ends = std::move(ends), limits](Task task, const std::string& model,
+                                                         const std::string& request) {
         ProcessEnd end;
         end.kind = ProcessEnd::Kind::stopped;
         while (!slots->try_acquire_for(look_every)) {
             if (ends()) return end;
         }
-        const std::filesystem::path file = work / ("inquiry-" + new_job_id());
+        const std::filesystem::path file = work / ("task-" + new_job_id());
         const ScopeExit clear([&] {
             unlink(file.c_str());
             slots->release();

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/problem_json.h"
+#include "server/jobs/job_control.h"
 #include "server/support/clock.h"
 
 namespace lastflat::server {
@@ -17,16 +18,6 @@ constexpr std::chrono::milliseconds look_again{2000};
 std::string problem_text(int status, const char* code, const std::string& detail) {
     return api::to_json(api::Problem{status, code, "", detail, std::nullopt, std::nullopt});
 }
-
-}  // namespace
-
-std::string worker_lost_problem() {
-    return problem_text(500, "worker_lost",
-                        "the job was begun three times and its worker was lost each time; post it "
-                        "again, or send a coarser model");
-}
-
-namespace {
 
 /// The outcome of a run that ended by itself or by its own fault; nothing: it may be run again.
 std::optional<JobOutcome> outcome_of(const Claim& claim, ProcessEnd& end) {
@@ -65,14 +56,8 @@ Release why_released(ProcessEnd::Kind kind) {
 
 }  // namespace
 
-void drop_unneeded(const BlobStore& blobs, JobStore& store,
-                   const std::vector<std::string>& digests) {
-    blobs.remove_unneeded(digests,
-                          [&](const std::string& digest) { return store.needs_blob(digest); });
-}
-
-WorkerPool::WorkerPool(JobStore& store, BlobStore& blobs, JobWatch& watch, PoolOptions options,
-                       JobRunner runner, RunLog log)
+WorkerPool::WorkerPool(JobStore& store, const BlobStore& blobs, JobWatch& watch,
+                       PoolOptions options, JobRunner runner, RunLog log)
     : store_(store),
       blobs_(blobs),
       watch_(watch),

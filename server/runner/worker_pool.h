@@ -8,10 +8,11 @@
 #include <thread>
 #include <vector>
 
+#include "server/jobs/blob_store.h"
+#include "server/jobs/job_executor.h"
 #include "server/jobs/job_store.h"
 #include "server/jobs/job_watch.h"
 #include "server/runner/worker_process.h"
-#include "server/storage/blob_store.h"
 
 namespace lastflat::server {
 
@@ -35,17 +36,15 @@ struct PoolOptions {
     std::filesystem::path work;  ///< a folder on the file system of the blobs
 };
 
-class WorkerPool {
+class WorkerPool final : public JobExecutor {
 public:
     /// All must outlive the pool.
-    WorkerPool(JobStore& store, BlobStore& blobs, JobWatch& watch, PoolOptions options,
+    WorkerPool(JobStore& store, const BlobStore& blobs, JobWatch& watch, PoolOptions options,
                JobRunner runner, RunLog log);
-    ~WorkerPool();
+    ~WorkerPool() override;
 
-    /// Says that a job was added.
-    void wake();
-    /// Ends a job's process at once; the store must already say that it is canceling or gone.
-    void cancel(const std::string& id);
+    void wake() override;
+    void cancel(const std::string& id) override;
     [[nodiscard]] std::size_t busy() const;
 
     /// Takes no more jobs.
@@ -69,7 +68,7 @@ private:
     [[nodiscard]] bool persist(const std::function<void()>& change);
 
     JobStore& store_;
-    BlobStore& blobs_;
+    const BlobStore& blobs_;
     JobWatch& watch_;
     const PoolOptions options_;
     const JobRunner runner_;
@@ -82,12 +81,5 @@ private:
     bool stopping_ = false;
     std::vector<std::thread> threads_;
 };
-
-/// What a job ends with whose worker was lost for the last time.
-[[nodiscard]] std::string worker_lost_problem();
-
-/// Removes those of the blobs that no row needs any more.
-void drop_unneeded(const BlobStore& blobs, JobStore& store,
-                   const std::vector<std::string>& digests);
 
 }  // namespace lastflat::server

@@ -7,6 +7,7 @@
 
 #include "api/problem.h"
 #include "core/flatten.h"
+#include "server/protocol/result_pack.h"
 
 namespace lastflat::server {
 
@@ -16,17 +17,6 @@ struct JobInput {
 };
 
 enum class Compression { none, gzip };
-
-struct Rendered {
-    std::string bytes;
-    std::string gzip;  ///< the same, compressed; empty unless asked for
-};
-
-/// A result in every format that it can be asked for.
-struct JobOutput {
-    Rendered json, svg, glb, obj;
-    Rendered metrics;  ///< the JSON without coordinates
-};
 
 /// Exactly one of the two, or neither: it was cancelled.
 struct RunOutcome {

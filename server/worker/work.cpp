@@ -103,7 +103,7 @@ void work(const WorkOrder& order) {
              std::string("the model cannot be read back: ") + error.what() + "; post the job again",
              std::nullopt, std::nullopt});
     }
-    if (order.task == Task::validate) return say(inspect_job(input));
+    if (order.task == Task::inspect) return say(inspect_job(input));
     flatten(order, input);
 }
 

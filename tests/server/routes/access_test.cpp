@@ -16,8 +16,9 @@ struct AccessSetting {
     lastflat::test::TemporaryFolder folder;
     SqliteDatabase database{folder.path() / "jobs.sqlite"};
     SqliteKeys keys{database};
-    Settings settings;
-    Access access{keys, settings};
+    Access access;
+
+    explicit AccessSetting(AccessRules rules = {}) : access(keys, std::move(rules)) {}
 
     static http::Request request(const std::string& key, const std::string& from = "127.0.0.1",
                                  const std::string& path = "/v1/jobs") {
@@ -68,8 +69,7 @@ TEST_SUITE("server/routes/access") {
     }
 
     TEST_CASE("a key has its rate, says what is left, and shares it with nobody") {
-        AccessSetting s;
-        s.settings.rate = 3;
+        AccessSetting s({3, {}});
         const std::string one = s.keys.add("one"), two = s.keys.add("two");
         http::Request first = s.request(one);
         CHECK_FALSE(s.access.admit(first).has_value());
@@ -85,8 +85,7 @@ TEST_SUITE("server/routes/access") {
     }
 
     TEST_CASE("only the web pages that are allowed may call") {
-        AccessSetting s;
-        s.settings.allowed_origins = {"https://studio.example"};
+        AccessSetting s({0, {"https://studio.example"}});
         const auto allowed = [&](const char* origin) {
             http::Request request = s.request("");
             request.headers["origin"] = origin;

@@ -8,6 +8,8 @@
 #include <set>
 
 #include "server/jobs/estimate.h"
+#include "server/jobs/job_control.h"
+#include "server/storage/blob_folder.h"
 #include "server/support/crypto.h"
 #include "tests/server/storage/test_store.h"
 
@@ -17,7 +19,7 @@ namespace {
 using test::new_job;
 
 struct PoolSetting : test::TestStore {
-    BlobStore blobs{folder.path() / "blobs"};
+    BlobFolder blobs{folder.path() / "blobs"};
     JobWatch watch;
     std::mutex mutex;
     std::vector<RunReport> reports;

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "server/protocol/result_pack.h"
-#include "server/storage/blob_store.h"
+#include "server/storage/blob_folder.h"
 #include "server/support/crypto.h"
 #include "tests/helpers/temporary_folder.h"
 
@@ -103,13 +103,13 @@ TEST_SUITE("server/runner/worker_process") {
         CHECK(error(changed).find("model_lost") != std::string::npos);
     }
 
-    TEST_CASE("a validation comes back with a report") {
+    TEST_CASE("an inspection comes back with a report") {
         WorkSetting s;
         WorkOrder order = s.order(square);
-        order.task = Task::validate;
+        order.task = Task::inspect;
         CHECK(s.run(order).report.find("\"flattens\":true") != std::string::npos);
         order = s.order("hello");
-        order.task = Task::validate;
+        order.task = Task::inspect;
         CHECK(s.run(order).outcome.error.find("unreadable_model") != std::string::npos);
     }
 

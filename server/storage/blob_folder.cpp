@@ -1,4 +1,4 @@
-#include "server/storage/blob_store.h"
+#include "server/storage/blob_folder.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -8,12 +8,13 @@
 #include <mutex>
 
 #include "server/support/crypto.h"
+#include "server/support/files.h"
 
 namespace lastflat::server {
 
 namespace fs = std::filesystem;
 
-BlobStore::BlobStore(fs::path folder) : folder_(std::move(folder)) {
+BlobFolder::BlobFolder(fs::path folder) : folder_(std::move(folder)) {
     std::error_code error;
     bool made = false;
     // All of them at once, so that no later write has to make one and sync two folders.
@@ -29,7 +30,7 @@ BlobStore::BlobStore(fs::path folder) : folder_(std::move(folder)) {
     remove_unfinished();
 }
 
-void BlobStore::remove_unfinished() const {
+void BlobFolder::remove_unfinished() const {
     for (const auto& group : fs::directory_iterator(folder_)) {
         for (const auto& file : fs::directory_iterator(group)) {
             if (file.path().filename().string().front() == '.') ::unlink(file.path().c_str());
@@ -37,18 +38,18 @@ void BlobStore::remove_unfinished() const {
     }
 }
 
-fs::path BlobStore::path_of(const std::string& digest) const {
+fs::path BlobFolder::path_of(const std::string& digest) const {
     return folder_ / digest.substr(0, 2) / digest.substr(2);
 }
 
-bool BlobStore::holds(const fs::path& path, std::string_view bytes) const {
+bool BlobFolder::holds(const fs::path& path, std::string_view bytes) const {
     std::error_code error;
     if (fs::file_size(path, error) != bytes.size() || error) return false;
     const File file(path, O_RDONLY);
     return file.read(0, bytes.size()) == bytes;
 }
 
-std::string BlobStore::put(std::string_view bytes) const {
+std::string BlobFolder::put(std::string_view bytes) const {
     std::string digest = sha256(bytes);
     const fs::path path = path_of(digest);
     // Compared, not believed: a blob that went bad on the disk is mended here. One that is there
@@ -60,7 +61,7 @@ std::string BlobStore::put(std::string_view bytes) const {
     return digest;
 }
 
-void BlobStore::adopt(const fs::path& file, const std::string& digest) const {
+void BlobFolder::adopt(const fs::path& file, const std::string& digest) const {
     const fs::path path = path_of(digest);
     std::error_code unknown;
     const bool taken_before = !fs::exists(file, unknown) && fs::exists(path, unknown);
@@ -70,22 +71,23 @@ void BlobStore::adopt(const fs::path& file, const std::string& digest) const {
     sync_folder(path.parent_path());
 }
 
-std::string BlobStore::read(const std::string& digest) const {
+std::string BlobFolder::read(const std::string& digest) const {
     const File file(path_of(digest), O_RDONLY);
     std::string bytes = file.read(0, file.size());
     if (sha256(bytes) != digest) throw CorruptBlob("the blob " + digest + " has other bytes");
     return bytes;
 }
 
-std::string BlobStore::read(const std::string& digest, std::size_t offset, std::size_t size) const {
+std::string BlobFolder::read(const std::string& digest, std::size_t offset,
+                             std::size_t size) const {
     return File(path_of(digest), O_RDONLY).read(offset, size);
 }
 
-bool BlobStore::remove(const std::string& digest) const {
+bool BlobFolder::remove(const std::string& digest) const {
     return ::unlink(path_of(digest).c_str()) == 0;
 }
 
-std::vector<std::string> BlobStore::all() const {
+std::vector<std::string> BlobFolder::all() const {
     std::vector<std::string> digests;
     for (const auto& group : fs::directory_iterator(folder_)) {
         for (const auto& file : fs::directory_iterator(group)) {
@@ -96,7 +98,7 @@ std::vector<std::string> BlobStore::all() const {
     return digests;
 }
 
-std::uintmax_t BlobStore::bytes() const {
+std::uintmax_t BlobFolder::bytes() const {
     std::uintmax_t sum = 0;
     for (const std::string& digest : all()) {
         std::error_code gone;
@@ -106,7 +108,7 @@ std::uintmax_t BlobStore::bytes() const {
     return sum;
 }
 
-std::uintmax_t BlobStore::free_bytes() const {
+std::uintmax_t BlobFolder::free_bytes() const {
     std::error_code unknown;
     const fs::space_info space = fs::space(folder_, unknown);
     if (unknown) throw StoreError("the room on the disk cannot be told: " + unknown.message());

@@ -1,22 +1,21 @@
-#include "server/routes/inquire.h"
+#include "server/routes/task_answer.h"
 
 #include <nlohmann/json.hpp>
 
 #include "server/routes/answers.h"
-#include "server/routes/waiting_place.h"
 
 namespace lastflat::server {
 
 using http::Response;
 using Json = nlohmann::ordered_json;
 
-Response inquire(Service& service, const http::Request& request, Task task,
-                 const std::string& model, const std::string& text) {
-    const WaitingPlace place(service, request);
-    if (!place.is_taken())
+Response TaskAnswers::answer(const http::Request& request, Task task, const std::string& model,
+                             const std::string& text) const {
+    const WaitingSeat seat(seats_, request);
+    if (!seat.is_taken())
         refuse(503, "validations_full",
                "too many models and patterns are being looked at; try again later");
-    const ProcessEnd end = service.inquire(task, model, text);
+    const ProcessEnd end = run_(task, model, text);
     if (end.kind == ProcessEnd::Kind::timed_out)
         refuse(422, "job_too_slow", "the model took too long to look at; send a coarser one");
     if (end.kind == ProcessEnd::Kind::stopped)

@@ -1,4 +1,4 @@
-#include "server/storage/blob_store.h"
+#include "server/storage/blob_folder.h"
 
 #include <doctest/doctest.h>
 
@@ -11,10 +11,10 @@
 
 namespace lastflat::server {
 
-TEST_SUITE("server/storage/blob_store") {
+TEST_SUITE("server/storage/blob_folder") {
     TEST_CASE("what is the same is kept once, and read back as it was") {
         const lastflat::test::TemporaryFolder folder;
-        const BlobStore blobs(folder.path() / "blobs");
+        const BlobFolder blobs(folder.path() / "blobs");
         const std::string digest = blobs.put("a last");
         CHECK(digest == sha256("a last"));
         CHECK(blobs.put("a last") == digest);
@@ -28,7 +28,7 @@ TEST_SUITE("server/storage/blob_store") {
 
     TEST_CASE("a blob that went bad is noticed, and mended when it comes again") {
         const lastflat::test::TemporaryFolder folder;
-        const BlobStore blobs(folder.path() / "blobs");
+        const BlobFolder blobs(folder.path() / "blobs");
         const std::string digest = blobs.put("a last");
         std::ofstream(blobs.path_of(digest)) << "a lost";
         CHECK_THROWS_AS((void)blobs.read(digest), CorruptBlob);
@@ -38,17 +38,17 @@ TEST_SUITE("server/storage/blob_store") {
 
     TEST_CASE("what a write that was cut off left behind is cleared at the next start") {
         const lastflat::test::TemporaryFolder folder;
-        { const BlobStore blobs(folder.path() / "blobs"); }
+        { const BlobFolder blobs(folder.path() / "blobs"); }
         const auto left = folder.path() / "blobs" / "00" / ".new-1-1";
         std::ofstream(left) << "half";
-        const BlobStore blobs(folder.path() / "blobs");
+        const BlobFolder blobs(folder.path() / "blobs");
         CHECK_FALSE(std::filesystem::exists(left));
         CHECK(blobs.all().empty());
     }
 
     TEST_CASE("only what nobody needs is removed") {
         const lastflat::test::TemporaryFolder folder;
-        const BlobStore blobs(folder.path() / "blobs");
+        const BlobFolder blobs(folder.path() / "blobs");
         const std::string kept = blobs.put("kept"), gone = blobs.put("gone");
         CHECK(blobs.remove_unneeded(
                   {kept, gone}, [&](const std::string& digest) { return digest == kept; }) == 1);
@@ -57,7 +57,7 @@ TEST_SUITE("server/storage/blob_store") {
 
     TEST_CASE("a file is taken over whole") {
         const lastflat::test::TemporaryFolder folder;
-        const BlobStore blobs(folder.path() / "blobs");
+        const BlobFolder blobs(folder.path() / "blobs");
         write_durably(folder.path() / "result", "a result");
         blobs.adopt(folder.path() / "result", sha256("a result"));
         CHECK(blobs.read(sha256("a result")) == "a result");

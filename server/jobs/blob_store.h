@@ -1,0 +1,64 @@
+// Models and results, each kept under the SHA-256 of its bytes: what is the same is kept once.
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+#include <shared_mutex>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/support/fair_gate.h"
+
+namespace lastflat::server {
+
+/// A blob whose bytes are not those that were kept.
+class CorruptBlob : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Every call is safe from any thread and may throw StoreError.
+class BlobStore {
+public:
+    virtual ~BlobStore() = default;
+
+    /// While somebody holds one, nothing is removed: from `put` until the blob's name is in a row.
+    [[nodiscard]] std::shared_lock<FairGate> pin() const { return std::shared_lock(removal_); }
+
+    /// Keeps the bytes and returns their digest; they are on the disk then.
+    virtual std::string put(std::string_view bytes) const = 0;
+    /// Takes over a file that is already on the disk (same file system), under its digest. May be
+    /// repeated after it failed. Throws: StoreError, also if there is neither file nor blob.
+    virtual void adopt(const std::filesystem::path& file, const std::string& digest) const = 0;
+    /// Where the blob is, or would be.
+    [[nodiscard]] virtual std::filesystem::path path_of(const std::string& digest) const = 0;
+    /// Throws: StoreError, CorruptBlob.
+    [[nodiscard]] virtual std::string read(const std::string& digest) const = 0;
+    [[nodiscard]] virtual std::string read(const std::string& digest, std::size_t offset,
+                                           std::size_t size) const = 0;
+
+    /// Removes those of the blobs that nobody needs: `is_needed` is asked while nothing can be
+    /// pinned. Returns how many there were.
+    template <class IsNeeded>
+    std::size_t remove_unneeded(const std::vector<std::string>& digests, IsNeeded is_needed) const {
+        const std::unique_lock lock(removal_);
+        std::size_t removed = 0;
+        for (const std::string& digest : digests) {
+            if (!is_needed(digest) && remove(digest)) ++removed;
+        }
+        return removed;
+    }
+    [[nodiscard]] virtual std::vector<std::string> all() const = 0;
+    [[nodiscard]] virtual std::uintmax_t bytes() const = 0;
+    /// Of the disk that the blobs are on.
+    [[nodiscard]] virtual std::uintmax_t free_bytes() const = 0;
+
+private:
+    virtual bool remove(const std::string& digest) const = 0;
+
+    mutable FairGate removal_;
+};
+
+}  // namespace lastflat::server

@@ -1,0 +1,59 @@
+#include "server/jobs/job_control.h"
+
+#include "server/jobs/refusal.h"
+
+namespace lastflat::server {
+
+JobRecord found_job(JobStore& jobs, const std::string& owner, const std::string& id) {
+    auto job = jobs.find(owner, id);
+    if (job) return std::move(*job);
+    if (jobs.is_expired(owner, id))
+        refuse(410, "job_expired", "the job " + id + " was kept as long as jobs are; it is gone");
+    refuse(404, "job_not_found", "there is no job " + id + "; it may have been deleted");
+}
+
+void drop_unneeded(const BlobStore& blobs, JobStore& jobs,
+                   const std::vector<std::string>& digests) {
+    blobs.remove_unneeded(digests,
+                          [&](const std::string& digest) { return jobs.needs_blob(digest); });
+}
+
+std::string worker_lost_problem() {
+    return api::to_json(api::Problem{
+        500, "worker_lost", "",
+        "the job was begun three times and its worker was lost each time; post it again, or send a "
+        "coarser model",
+        std::nullopt, std::nullopt});
+}
+
+void JobControl::has_ended(const std::string& id) {
+    executor_.cancel(id);
+    watch_.changed(id);
+}
+
+JobRecord JobControl::cancel(const std::string& owner, const std::string& id) {
+    const auto state = jobs_.cancel(owner, id);
+    if (!state) (void)found_job(jobs_, owner, id);
+    if (state == JobState::succeeded || state == JobState::failed)
+        refuse(409, "already_finished", "the job has already " + std::string(name(*state)));
+    has_ended(id);
+    JobRecord job = found_job(jobs_, owner, id);
+    drop_unneeded(blobs_, jobs_, {job.model});
+    return job;
+}
+
+void JobControl::remove(const std::string& owner, const std::string& id) {
+    const auto blobs = jobs_.remove(owner, id);
+    if (!blobs) (void)found_job(jobs_, owner, id);
+    has_ended(id);
+    drop_unneeded(blobs_, jobs_, *blobs);
+}
+
+void JobControl::sweep() {
+    const Swept swept = jobs_.sweep(false, worker_lost_problem());
+    for (const std::string& id : swept.changed) has_ended(id);
+    drop_unneeded(blobs_, jobs_, swept.blobs);
+    if (!swept.changed.empty()) executor_.wake();
+}
+
+}  // namespace lastflat::server

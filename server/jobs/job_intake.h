@@ -1,0 +1,83 @@
+// From what a client sends to a job on the disk.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <set>
+
+#include "server/jobs/asset_store.h"
+#include "server/jobs/blob_store.h"
+#include "server/jobs/job_executor.h"
+#include "server/jobs/job_store.h"
+
+namespace lastflat::server {
+
+/// What is asked for, and by whom.
+struct Submission {
+    std::string model;    ///< the bytes; empty if `asset` is given
+    std::string asset;    ///< digest of an asset
+    std::string request;  ///< the constraint JSON, valid; may be empty: every default
+    std::string tag;
+    std::optional<JobWebhook> webhook;
+
+    std::string owner;            ///< id of the API key; empty: the service is open
+    std::string id;               ///< chosen by the client, else empty
+    std::string batch;            ///< id of the batch it came in; empty: alone
+    std::string idempotency_key;  ///< empty: none
+    std::string cancel_after;     ///< a duration as it was written; empty: never
+};
+
+struct Submitted {
+    JobRecord job;
+    bool repeated = false;  ///< it was there already, the same
+};
+
+struct IntakeLimits {
+    QueueLimits queue;
+    std::size_t min_free_mb = 512;  ///< of the disk
+    bool webhooks = false;          ///< whether a job may have one
+};
+
+/// Throws: Refusal (507) if the disk has less room than the operator wants to keep; StoreError.
+void check_room(const BlobStore& blobs, std::size_t min_free_mb);
+
+/// Throws: Refusal (403) unless the service sends webhooks.
+void require_webhooks(bool webhooks);
+
+/// Takes jobs. Safe from any thread.
+class JobIntake {
+public:
+    /// All must outlive it. `draining`: take no more.
+    JobIntake(JobStore& jobs, AssetStore& assets, const BlobStore& blobs, JobExecutor& executor,
+              const IntakeLimits& limits, const std::atomic<bool>& draining)
+        : jobs_(jobs),
+          assets_(assets),
+          blobs_(blobs),
+          executor_(executor),
+          limits_(limits),
+          draining_(draining) {}
+
+    /// Keeps a job; on the disk when this returns.
+    /// Throws: Refusal (403, 409, 422, 429, 503, 507), StoreError.
+    [[nodiscard]] Submitted submit(const Submission& submission);
+
+private:
+    /// Where the model is kept; its size goes into the job.
+    [[nodiscard]] std::string digest_of_model(const Submission& submission, NewJob& job);
+    [[nodiscard]] Admitted admit(const Submission& submission, NewJob& job);
+    [[noreturn]] void refuse_admission(Admission admission) const;
+    /// False: a request with this key is being taken right now.
+    [[nodiscard]] bool enter(const std::string& key);
+    void leave(const std::string& key);
+
+    JobStore& jobs_;
+    AssetStore& assets_;
+    const BlobStore& blobs_;
+    JobExecutor& executor_;
+    const IntakeLimits limits_;
+    const std::atomic<bool>& draining_;
+    std::mutex mutex_;
+    std::set<std::string> keys_in_flight_;
+};
+
+}  // namespace lastflat::server

@@ -1,0 +1,78 @@
+#include "server/routes/submit_routes.h"
+
+#include "server/jobs/result_parts.h"
+#include "server/routes/answers.h"
+#include "server/routes/submission.h"
+
+namespace lastflat::server {
+namespace {
+
+using http::Request;
+using http::Response;
+
+constexpr std::size_t most_waiting_body = 16u << 20;
+
+/// The job with its result inside.
+Response finished_response(const SubmitServices& service, const JobRecord& job) {
+    std::string text = service.view.json(job);
+    if (job.state == JobState::succeeded && !job.result.empty()) {
+        text.pop_back();
+        text += ",\"result\":" + result_bytes(service.blobs, job, result_part(job, "json", false)) +
+                "}";
+    }
+    return json_response(200, std::move(text));
+}
+
+std::size_t body_bytes(const Request& request) {
+    std::size_t bytes = 0;
+    for (const http::BodyPart& part : request.body) bytes += part.bytes.size();
+    return bytes;
+}
+
+Response submitted_response(const SubmitServices& service, const Request& request,
+                            Submitted submitted) {
+    JobRecord& job = submitted.job;
+    auto wait = preferred_wait(request);
+    // A large body would stay in memory, and in the share that all bodies have, while it waits.
+    if (body_bytes(request) > most_waiting_body) wait.reset();
+    if (wait && !is_final(job.state)) job = service.wait.wait(request, std::move(job), *wait);
+    Response response = wait && is_final(job.state) ? finished_response(service, job)
+                                                    : job_response(service.view, job, 202);
+    if (wait) response.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(*wait));
+    if (submitted.repeated) response.headers.emplace_back("Idempotent-Replayed", "true");
+    response.headers.emplace_back("Location", "/v1/jobs/" + job.id);
+    return response;
+}
+
+/// What is asked for and how; `id`: chosen by the client, else empty.
+Submission submission_of(const Request& request, const std::string& id) {
+    Submission submission = read_submission(request);
+    read_terms(request, submission);
+    submission.id = id;
+    return submission;
+}
+
+Response post_job(const SubmitServices& service, const Request& request) {
+    Submitted submitted = service.intake.submit(submission_of(request, ""));
+    return submitted_response(service, request, std::move(submitted));
+}
+
+Response put_job(const SubmitServices& service, const Request& request) {
+    Submitted submitted = service.intake.submit(submission_of(request, request.captures.at(0)));
+    const bool repeated = submitted.repeated;
+    Response response = submitted_response(service, request, std::move(submitted));
+    if (repeated) response.status = 200;
+    return response;
+}
+
+}  // namespace
+
+std::vector<http::Route> submit_routes(const SubmitServices& service) {
+    return {
+        {"POST", "/v1/jobs",
+         guarded([service](const Request& request) { return post_job(service, request); }), true},
+        {"PUT", "/v1/jobs/{id}",
+         guarded([service](const Request& request) { return put_job(service, request); }), true}};
+}
+
+}  // namespace lastflat::server

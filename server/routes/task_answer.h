@@ -1,0 +1,25 @@
+// A task that a worker does while the client waits: an inspection, or a mapping.
+#pragma once
+
+#include "server/http/http.h"
+#include "server/routes/waiting_seat.h"
+#include "server/runner/runners.h"
+
+namespace lastflat::server {
+
+class TaskAnswers {
+public:
+    /// `seats` must outlive it.
+    TaskAnswers(SeatsByKey& seats, TaskRunner run) : seats_(seats), run_(std::move(run)) {}
+
+    /// The task's report, or its problem. Takes a seat to wait in.
+    /// Throws: Refusal (422, 500, 503).
+    [[nodiscard]] http::Response answer(const http::Request& request, Task task,
+                                        const std::string& model, const std::string& text) const;
+
+private:
+    SeatsByKey& seats_;
+    const TaskRunner run_;
+};
+
+}  // namespace lastflat::server
