@@ -41,7 +41,7 @@ std::optional<std::string> file_bytes(const fs::path& path) {
 
 using Files = std::vector<std::pair<std::string, std::string_view>>;
 
-/// Writes all files beside their places, then moves them there; on failure none is left.
+/// Writes all files under other names, then renames them; on failure none is left.
 void write_files(const fs::path& directory, const Files& files) {
     fs::create_directories(directory);
     const auto beside = [&](const std::string& name) { return directory / ("." + name + ".part"); };

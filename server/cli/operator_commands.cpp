@@ -65,9 +65,7 @@ private:
     }
 
     void check_database() {
-        const std::string verdict = database_.read([](SqliteConnection& connection) {
-            return connection.database().execAndGet("PRAGMA integrity_check").getString();
-        });
+        const std::string verdict = database_.integrity();
         if (verdict != "ok") complain("database: " + verdict);
     }
 

@@ -3,7 +3,7 @@
 
 #include "server/http/http.h"
 #include "server/jobs/estimate.h"
-#include "server/runner/worker_pool.h"
+#include "server/runner/runner_pool.h"
 #include "server/storage/sqlite.h"
 #include "server/support/metrics.h"
 

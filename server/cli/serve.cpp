@@ -23,7 +23,7 @@
 #include "server/routes/submit_routes.h"
 #include "server/routes/validate_route.h"
 #include "server/routes/webhook_routes.h"
-#include "server/runner/runners.h"
+#include "server/runner/in_worker.h"
 #include "server/storage/blob_folder.h"
 #include "server/storage/data_directory.h"
 #include "server/storage/sqlite_accounts.h"
@@ -180,11 +180,11 @@ private:
     Estimate estimate_;
     const std::size_t recovered_jobs_ = recover(jobs_, blobs_);  ///< before any worker begins
     const ProcessLimits limits_ = process_limits(settings_);
-    WorkerPool workers_{jobs_,
+    RunnerPool workers_{jobs_,
                         blobs_,
                         watch_,
                         {settings_.workers, settings_.lease_ms, data_.work()},
-                        job_runner(limits_, blobs_),
+                        run_jobs_in_workers(limits_, blobs_),
                         run_log(metrics_, estimate_)};
     JobControl control_{jobs_, blobs_, watch_, workers_};
     JobIntake intake_{jobs_,
@@ -199,7 +199,7 @@ private:
     std::optional<WebhookDispatcher> dispatcher_;
     SeatsByKey seats_{settings_.streams};
     const TaskAnswers tasks_{
-        seats_, task_runner(limits_, data_.work(), [this] { return watch_.is_closed(); })};
+        seats_, run_tasks_in_workers(limits_, data_.work(), [this] { return watch_.is_closed(); })};
     const JobView view_{watch_, estimate_, settings_.workers};
     const JobWait wait_{jobs_, watch_, seats_, view_};
     const AdminServices admin_services_{jobs_, metrics_, draining_, settings_.workers,

@@ -10,7 +10,7 @@
 
 namespace lastflat::server {
 
-/// A worker's hold on a running job. It is good until the lease ends or somebody else has taken the
+/// A runner's hold on a running job. It is good until the lease ends or somebody else has taken the
 /// job; the token tells which.
 struct Lease {
     std::string id;
@@ -51,13 +51,13 @@ struct JobFilter {
     std::optional<JobState> state;
     std::optional<std::string> tag, batch;
     std::optional<std::int64_t> created_after_ms;
-    std::optional<std::int64_t> before;  ///< a place given by an earlier list
+    std::optional<std::int64_t> before;  ///< a position given by an earlier list
     std::size_t limit = 50;
 };
 
 struct JobList {
     std::vector<JobRecord> jobs;       ///< newest first
-    std::optional<std::int64_t> next;  ///< the place where the next list begins
+    std::optional<std::int64_t> next;  ///< the position where the next list begins
 };
 
 struct StateChange {

@@ -17,8 +17,8 @@ struct Webhook {
 };
 
 struct Delivery {
-    std::int64_t place = 0;
-    std::string id;  ///< the same for every attempt
+    std::int64_t seq = 0;  ///< in the order of their making
+    std::string id;        ///< the same for every attempt
     std::string webhook, event, payload;
     std::int64_t created_ms = 0;
     int attempt = 0;

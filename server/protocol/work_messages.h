@@ -1,4 +1,4 @@
-// What the service and a worker process say to each other: one JSON object a line.
+// What the service and a worker say to each other: one JSON object a line.
 //
 //   service -> worker   the order
 //   worker -> service   {"stage": "cut", "fraction": 0.2}            any number of times

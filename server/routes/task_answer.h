@@ -3,14 +3,14 @@
 
 #include "server/http/http.h"
 #include "server/routes/waiting_seat.h"
-#include "server/runner/runners.h"
+#include "server/runner/in_worker.h"
 
 namespace lastflat::server {
 
 class TaskAnswers {
 public:
     /// `seats` must outlive it.
-    TaskAnswers(SeatsByKey& seats, TaskRunner run) : seats_(seats), run_(std::move(run)) {}
+    TaskAnswers(SeatsByKey& seats, RunTask run) : seats_(seats), run_(std::move(run)) {}
 
     /// The task's report, or its problem. Takes a seat to wait in.
     /// Throws: Refusal (422, 500, 503).
@@ -19,7 +19,7 @@ public:
 
 private:
     SeatsByKey& seats_;
-    const TaskRunner run_;
+    const RunTask run_;
 };
 
 }  // namespace lastflat::server

@@ -1,4 +1,4 @@
-// A job in a process of its own, seen from the service.
+// A worker as the service sees it.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,7 @@
 
 namespace lastflat::server {
 
-/// `lastflat-work`, beside the running program.
+/// The program of the workers: `lastflat-work`, beside the running program.
 [[nodiscard]] std::string worker_program();
 
 struct ProcessLimits {

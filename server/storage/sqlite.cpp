@@ -62,4 +62,10 @@ void SqliteDatabase::give_back(std::unique_ptr<SqliteConnection> connection) {
     if (readers_.size() < most_idle_readers) readers_.push_back(std::move(connection));
 }
 
+std::string SqliteDatabase::integrity() {
+    return read([](SqliteConnection& connection) {
+        return connection.database().execAndGet("PRAGMA integrity_check").getString();
+    });
+}
+
 }  // namespace lastflat::server

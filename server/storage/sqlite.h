@@ -122,6 +122,9 @@ public:
         });
     }
 
+    /// "ok", or what is wrong with the file.
+    [[nodiscard]] std::string integrity();
+
 private:
     template <class Work>
     auto timed(bool writes, Work work) {

@@ -97,7 +97,7 @@ std::optional<DueDelivery> SqliteWebhooks::claim(std::int64_t lease_ms) {
         due.webhook = *webhook;
         ++due.delivery.attempt;
         Query(connection.prepared("UPDATE deliveries SET next_ms = ?, attempt = ? WHERE seq = ?"))
-            .bind(now_ms() + lease_ms, due.delivery.attempt, due.delivery.place)
+            .bind(now_ms() + lease_ms, due.delivery.attempt, due.delivery.seq)
             .run();
         return due;
     });
@@ -108,7 +108,7 @@ void SqliteWebhooks::settle(const Delivery& delivery) {
         Query(connection.prepared("UPDATE deliveries SET next_ms = ?, delivered = ?, status = ?, "
                                   "error = ? WHERE seq = ?"))
             .bind(delivery.next_ms, delivery.delivered ? 1 : 0, delivery.status, delivery.error,
-                  delivery.place)
+                  delivery.seq)
             .run();
         // A list of what was sent, not an archive.
         Query(connection.prepared(

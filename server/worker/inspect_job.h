@@ -1,4 +1,4 @@
-// The validation of a model and its request.
+// What a model is, and whether its request can be met.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// The worker: a program of its own, started by the service for each job.
+// The program lastflat-work, of which each worker is a process.
 #include "server/worker/work.h"
 
 int main() {

@@ -18,7 +18,7 @@ struct JobInput {
 
 enum class Compression { none, gzip };
 
-/// Exactly one of the two, or neither: it was cancelled.
+/// Exactly one of the two, or neither: it was canceled.
 struct RunOutcome {
     std::unique_ptr<const JobOutput> output;
     std::optional<api::Problem> error;

@@ -1,5 +1,5 @@
-// What a worker does: a process of its own for one job, so that whatever a model does to it happens
-// to that job alone.
+// What a worker does: a process of its own for one task, so that whatever a model does to it
+// happens to that task alone.
 #pragma once
 
 namespace lastflat::server {

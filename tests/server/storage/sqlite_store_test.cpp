@@ -126,7 +126,7 @@ TEST_SUITE("server/storage/sqlite_store") {
         CHECK(s.store.find("", "A")->attempt == 0);
     }
 
-    TEST_CASE("a job that is cancelled while it runs ends as canceled, whatever it returns") {
+    TEST_CASE("a job that is canceled while it runs ends as canceled, whatever it returns") {
         TestStore s;
         REQUIRE(s.add(new_job("A")) == Admission::queued);
         const auto claim = s.store.claim(long_lease).value();

@@ -1,4 +1,4 @@
-#include "server/runner/worker_pool.h"
+#include "server/runner/runner_pool.h"
 
 #include <doctest/doctest.h>
 
@@ -68,11 +68,11 @@ ProcessEnd until_stopped(const ProcessControl& control) {
 
 }  // namespace
 
-TEST_SUITE("server/runner/worker_pool") {
+TEST_SUITE("server/runner/runner_pool") {
     TEST_CASE("every job that is added is run once, and its result kept") {
         PoolSetting s;
         std::atomic<int> runs{0};
-        WorkerPool pool(
+        RunnerPool pool(
             s.store, s.blobs, s.watch, s.options(4),
             [&](const Claim&, const std::filesystem::path& file, const ProcessControl&) {
                 ++runs;
@@ -93,7 +93,7 @@ TEST_SUITE("server/runner/worker_pool") {
 
     TEST_CASE("a running job is stopped when it is canceled or removed") {
         PoolSetting s;
-        WorkerPool pool(
+        RunnerPool pool(
             s.store, s.blobs, s.watch, s.options(1),
             [](const Claim&, const std::filesystem::path&, const ProcessControl& control) {
                 return until_stopped(control);
@@ -123,7 +123,7 @@ TEST_SUITE("server/runner/worker_pool") {
                                                std::tuple(Kind::lost, "worker_lost", 3),
                                                std::tuple(Kind::timed_out, "job_too_slow", 1)}) {
             PoolSetting s;
-            WorkerPool pool(
+            RunnerPool pool(
                 s.store, s.blobs, s.watch, s.options(1),
                 [kind = kind](const Claim&, const std::filesystem::path&, const ProcessControl&) {
                     return ended_as(kind);
@@ -140,7 +140,7 @@ TEST_SUITE("server/runner/worker_pool") {
 
     TEST_CASE("at the end running jobs go back to the queue, and nothing new is begun") {
         PoolSetting s;
-        WorkerPool pool(
+        RunnerPool pool(
             s.store, s.blobs, s.watch, s.options(1),
             [](const Claim&, const std::filesystem::path&, const ProcessControl& control) {
                 return until_stopped(control);
@@ -160,7 +160,7 @@ TEST_SUITE("server/runner/worker_pool") {
     TEST_CASE("a lease is renewed while the job runs, and a lost one ends the run") {
         PoolSetting s;
         std::atomic<bool> go_on{true};
-        WorkerPool pool(
+        RunnerPool pool(
             s.store, s.blobs, s.watch, s.options(1, 60),
             [&](const Claim&, const std::filesystem::path& file, const ProcessControl& control) {
                 while (go_on) {

@@ -1,4 +1,4 @@
-#include "server/runner/runners.h"
+#include "server/runner/in_worker.h"
 
 #include <unistd.h>
 
@@ -22,7 +22,7 @@ int hardware_threads() {
     return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-JobRunner job_runner(const ProcessLimits& limits, const BlobStore& blobs) {
+RunJob run_jobs_in_workers(const ProcessLimits& limits, const BlobStore& blobs) {
     return [&blobs, limits](const Claim& claim, const std::filesystem::path& file,
                             const ProcessControl& control) {
         WorkOrder order;
@@ -35,8 +35,8 @@ JobRunner job_runner(const ProcessLimits& limits, const BlobStore& blobs) {
     };
 }
 
-TaskRunner task_runner(const ProcessLimits& limits, const std::filesystem::path& work,
-                       std::function<bool()> ends) {
+RunTask run_tasks_in_workers(const ProcessLimits& limits, const std::filesystem::path& work,
+                             std::function<bool()> ends) {
     const auto slots = std::make_shared<std::counting_semaphore<>>(most_tasks);
     return [slots, work, ends = std::move(ends), limits](Task task, const std::string& model,
                                                          const std::string& request) {

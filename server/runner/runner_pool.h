@@ -1,4 +1,4 @@
-// Threads that take jobs from the store and see each through its process.
+// Runners: threads that claim jobs and see each through its worker.
 #pragma once
 
 #include <condition_variable>
@@ -17,8 +17,8 @@
 namespace lastflat::server {
 
 /// Runs one claimed job to its end; its result, if any, is in `file`.
-using JobRunner = std::function<ProcessEnd(const Claim& claim, const std::filesystem::path& file,
-                                           const ProcessControl& control)>;
+using RunJob = std::function<ProcessEnd(const Claim& claim, const std::filesystem::path& file,
+                                        const ProcessControl& control)>;
 
 /// Told of every end of a run. Any of the pool's threads.
 struct RunReport {
@@ -31,17 +31,17 @@ struct RunReport {
 using RunLog = std::function<void(const RunReport&)>;
 
 struct PoolOptions {
-    std::size_t workers = 1;
+    std::size_t workers = 1;  ///< at once, each with a runner
     std::int64_t lease_ms = 60'000;
     std::filesystem::path work;  ///< a folder on the file system of the blobs
 };
 
-class WorkerPool final : public JobExecutor {
+class RunnerPool final : public JobExecutor {
 public:
     /// All must outlive the pool.
-    WorkerPool(JobStore& store, const BlobStore& blobs, JobWatch& watch, PoolOptions options,
-               JobRunner runner, RunLog log);
-    ~WorkerPool() override;
+    RunnerPool(JobStore& store, const BlobStore& blobs, JobWatch& watch, PoolOptions options,
+               RunJob run_job, RunLog log);
+    ~RunnerPool() override;
 
     void wake() override;
     void cancel(const std::string& id) override;
@@ -71,7 +71,7 @@ private:
     const BlobStore& blobs_;
     JobWatch& watch_;
     const PoolOptions options_;
-    const JobRunner runner_;
+    const RunJob run_job_;
     const RunLog log_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;

@@ -1,4 +1,4 @@
-#include "server/runner/worker_pool.h"
+#include "server/runner/runner_pool.h"
 
 #include <nlohmann/json.hpp>
 
@@ -56,22 +56,22 @@ Release why_released(ProcessEnd::Kind kind) {
 
 }  // namespace
 
-WorkerPool::WorkerPool(JobStore& store, const BlobStore& blobs, JobWatch& watch,
-                       PoolOptions options, JobRunner runner, RunLog log)
+RunnerPool::RunnerPool(JobStore& store, const BlobStore& blobs, JobWatch& watch,
+                       PoolOptions options, RunJob run_job, RunLog log)
     : store_(store),
       blobs_(blobs),
       watch_(watch),
       options_(std::move(options)),
-      runner_(std::move(runner)),
+      run_job_(std::move(run_job)),
       log_(std::move(log)) {
     for (std::size_t i = 0; i < options_.workers; ++i) threads_.emplace_back([this] { work(); });
 }
 
-WorkerPool::~WorkerPool() {
+RunnerPool::~RunnerPool() {
     stop(std::chrono::milliseconds(0));
 }
 
-void WorkerPool::wake() {
+void RunnerPool::wake() {
     {
         const std::scoped_lock lock(mutex_);
         ++wakes_;
@@ -80,25 +80,25 @@ void WorkerPool::wake() {
     changed_.notify_all();
 }
 
-void WorkerPool::cancel(const std::string& id) {
+void RunnerPool::cancel(const std::string& id) {
     const std::scoped_lock lock(mutex_);
     for (auto& [token, run] : running_) {
         if (run.id == id) run.canceled = true;
     }
 }
 
-std::size_t WorkerPool::busy() const {
+std::size_t RunnerPool::busy() const {
     const std::scoped_lock lock(mutex_);
     return running_.size();
 }
 
-void WorkerPool::drain() {
+void RunnerPool::drain() {
     const std::scoped_lock lock(mutex_);
     draining_ = true;
     changed_.notify_all();
 }
 
-void WorkerPool::stop(std::chrono::milliseconds grace) {
+void RunnerPool::stop(std::chrono::milliseconds grace) {
     drain();
     {
         std::unique_lock lock(mutex_);
@@ -110,7 +110,7 @@ void WorkerPool::stop(std::chrono::milliseconds grace) {
     threads_.clear();
 }
 
-void WorkerPool::work() {
+void RunnerPool::work() {
     std::unique_lock lock(mutex_);
     while (!draining_) {
         // The store may be slow: what others want of this pool must not wait for it.
@@ -137,7 +137,7 @@ void WorkerPool::work() {
     }
 }
 
-std::optional<Claim> WorkerPool::try_claim() {
+std::optional<Claim> RunnerPool::try_claim() {
     try {
         return store_.claim(options_.lease_ms);
     } catch (const std::exception&) {
@@ -145,7 +145,7 @@ std::optional<Claim> WorkerPool::try_claim() {
     }
 }
 
-bool WorkerPool::must_stop(const Claim& claim, std::int64_t& renewed_ms) {
+bool RunnerPool::must_stop(const Claim& claim, std::int64_t& renewed_ms) {
     {
         const std::scoped_lock lock(mutex_);
         if (stopping_ || running_.at(claim.lease.token).canceled) return true;
@@ -161,7 +161,7 @@ bool WorkerPool::must_stop(const Claim& claim, std::int64_t& renewed_ms) {
     return false;
 }
 
-void WorkerPool::run(const Claim& claim) {
+void RunnerPool::run(const Claim& claim) {
     const auto begun = Clock::now();
     auto stage_begun = begun;
     std::string stage = "start";
@@ -182,7 +182,7 @@ void WorkerPool::run(const Claim& claim) {
         options_.work / (claim.lease.id + "." + std::to_string(claim.attempt));
     ProcessEnd end;
     try {
-        end = runner_(claim, file, control);
+        end = run_job_(claim, file, control);
     } catch (const std::exception& error) {
         end.kind = ProcessEnd::Kind::retry;
         end.why = error.what();
@@ -198,7 +198,7 @@ void WorkerPool::run(const Claim& claim) {
     log_(report);
 }
 
-bool WorkerPool::persist(const std::function<void()>& change) {
+bool RunnerPool::persist(const std::function<void()>& change) {
     for (;;) {
         try {
             change();
@@ -211,7 +211,7 @@ bool WorkerPool::persist(const std::function<void()>& change) {
     }
 }
 
-std::optional<JobState> WorkerPool::settle(const Claim& claim, ProcessEnd& end,
+std::optional<JobState> RunnerPool::settle(const Claim& claim, ProcessEnd& end,
                                            const std::filesystem::path& file) {
     std::optional<JobState> state;
     const auto outcome = outcome_of(claim, end);

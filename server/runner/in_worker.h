@@ -1,0 +1,23 @@
+// Jobs and tasks in workers, under the limits that the operator has set.
+#pragma once
+
+#include "server/runner/runner_pool.h"
+
+namespace lastflat::server {
+
+/// `blobs` must outlive what is returned.
+[[nodiscard]] RunJob run_jobs_in_workers(const ProcessLimits& limits, const BlobStore& blobs);
+
+/// A short task in a worker of its own: an inspection, or a mapping.
+using RunTask =
+    std::function<ProcessEnd(Task task, const std::string& model, const std::string& request)>;
+
+/// Few at once, others wait: each may use as much as a job. `work`: a folder for the models.
+/// Once `ends` says so they end at once, as stopped.
+[[nodiscard]] RunTask run_tasks_in_workers(const ProcessLimits& limits,
+                                           const std::filesystem::path& work,
+                                           std::function<bool()> ends);
+
+[[nodiscard]] int hardware_threads();
+
+}  // namespace lastflat::server
