@@ -8,7 +8,9 @@ namespace lastflat::api {
 
 /// Reads "locks", "constraints", "on_conflict", "weights" and "material".
 /// Points that they name must have been read before.
-void read_constraint_fields(ObjectReader& reader, const RequestLimits& limits,
-                            FlattenRequest& request);
+void read_constraint_fields(ObjectReader& reader, const RequestLimits& limits, Request& request);
+
+/// `exterior` and `interior` are read as `lateral` and `medial`.
+[[nodiscard]] std::string canonical_region(const std::string& name);
 
 }  // namespace lastflat::api

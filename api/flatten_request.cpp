@@ -5,6 +5,7 @@
 #include "api/base64.h"
 #include "api/constraint_fields.h"
 #include "api/object_reader.h"
+#include "api/request_words.h"
 
 namespace lastflat::api {
 namespace {
@@ -16,216 +17,206 @@ std::vector<std::string> read_names(const Field& field, const RequestLimits& lim
     return names;
 }
 
-Position read_position(const Field& field) {
+Vec3 read_position(const Field& field) {
     const auto items = field.items(3);
     if (items.size() != 3) field.fail("must be three numbers: x, y, z");
     return {items[0].number(-far_away, far_away), items[1].number(-far_away, far_away),
             items[2].number(-far_away, far_away)};
 }
 
-PlaceRequest read_place(const Field& field) {
+Location read_location(const Field& field) {
     ObjectReader reader(field);
-    PlaceRequest place;
-    if (const auto vertex = reader.find("vertex")) place.vertex = vertex->index();
-    if (const auto position = reader.find("position")) place.position = read_position(*position);
+    const auto vertex = reader.find("vertex"), position = reader.find("position");
+    const std::optional<Index> id = vertex ? std::optional(vertex->index()) : std::nullopt;
+    const std::optional<Vec3> point =
+        position ? std::optional(read_position(*position)) : std::nullopt;
     reader.finish();
-    if (place.vertex.has_value() == place.position.has_value()) {
+    if (id.has_value() == point.has_value())
         field.fail("must have either \"vertex\" or \"position\"");
-    }
-    return place;
+    if (id) return *id;
+    return *point;
 }
 
-void read_vertices(const Field& field, const RequestLimits& limits, CurveRequest& curve) {
-    curve.form = CurveForm::vertices;
+VertexPath read_vertices(const Field& field, const RequestLimits& limits) {
+    VertexPath path;
     for (const Field& item : field.items(limits.curve_vertices))
-        curve.vertices.push_back(item.index());
-    if (curve.vertices.size() < 2) field.fail("must have at least two vertices");
+        path.vertices.push_back(item.index());
+    if (path.vertices.size() < 2) field.fail("must have at least two vertices");
+    return path;
 }
 
-void read_polyline(const Field& field, const RequestLimits& limits, CurveRequest& curve) {
-    curve.form = CurveForm::polyline;
+Polyline read_polyline(const Field& field, const RequestLimits& limits) {
+    Polyline polyline;
     for (const Field& item : field.items(limits.curve_vertices))
-        curve.polyline.push_back(read_position(item));
-    if (curve.polyline.size() < 2) field.fail("must have at least two points");
+        polyline.points.push_back(read_position(item));
+    if (polyline.points.size() < 2) field.fail("must have at least two points");
+    return polyline;
 }
 
-CurveRequest read_curve(const std::string& name, const Field& field, const RequestLimits& limits) {
+GroupBorder read_border_of(const Field& field, const RequestLimits& limits) {
     ObjectReader reader(field);
-    CurveRequest curve;
-    curve.name = name;
-    int forms = 0;
-    if (const auto vertices = reader.find("vertices")) {
-        read_vertices(*vertices, limits, curve);
-        ++forms;
-    }
-    if (const auto polyline = reader.find("polyline")) {
-        read_polyline(*polyline, limits, curve);
-        ++forms;
-    }
-    const auto from = reader.find("from"), to = reader.find("to"), via = reader.find("via");
-    if (from || to || via) {
-        if (!from || !to) field.fail("a geodesic needs both \"from\" and \"to\"");
-        curve.form = CurveForm::geodesic;
-        curve.from = from->text(limits.name_bytes);
-        curve.to = to->text(limits.name_bytes);
-        if (via) curve.via = read_names(*via, limits);
-        ++forms;
-    }
-    if (const auto border_of = reader.find("border_of")) {
-        ObjectReader inner(*border_of);
-        const auto groups = inner.find("groups");
-        inner.finish();
-        if (!groups) border_of->fail("must have \"groups\"");
-        curve.form = CurveForm::border_of;
-        curve.border_of_groups = read_names(*groups, limits);
-        if (curve.border_of_groups.empty() || curve.border_of_groups.size() > 2)
-            groups->fail("must name one group or two");
-        ++forms;
-    }
-    if (const auto border_at = reader.find("border_at")) {
-        curve.form = CurveForm::border_at;
-        curve.border_at = read_place(*border_at);
-        ++forms;
-    }
-    if (const auto line = reader.find("line")) {
-        curve.form = CurveForm::line;
-        curve.line = line->text(limits.name_bytes);
-        ++forms;
-    }
+    const auto groups = reader.find("groups");
     reader.finish();
-    if (forms != 1)
+    if (!groups) field.fail("must have \"groups\"");
+    GroupBorder border{read_names(*groups, limits)};
+    if (border.groups.empty() || border.groups.size() > 2)
+        groups->fail("must name one group or two");
+    return border;
+}
+
+std::optional<ShortestPath> read_geodesic(ObjectReader& reader, const RequestLimits& limits) {
+    const auto from = reader.find("from"), to = reader.find("to"), via = reader.find("via");
+    if (!from && !to && !via) return std::nullopt;
+    if (!from || !to) reader.field().fail("a geodesic needs both \"from\" and \"to\"");
+    ShortestPath path{{from->text(limits.name_bytes)}};
+    const std::string end = to->text(limits.name_bytes);
+    if (via) {
+        for (std::string& name : read_names(*via, limits)) path.through.push_back(std::move(name));
+    }
+    path.through.push_back(end);
+    return path;
+}
+
+CurveSource read_curve(const std::string& name, const Field& field, const RequestLimits& limits) {
+    ObjectReader reader(field);
+    std::vector<CurveForm> forms;
+    if (const auto vertices = reader.find("vertices"))
+        forms.emplace_back(read_vertices(*vertices, limits));
+    if (const auto polyline = reader.find("polyline"))
+        forms.emplace_back(read_polyline(*polyline, limits));
+    if (auto path = read_geodesic(reader, limits)) forms.emplace_back(std::move(*path));
+    if (const auto border_of = reader.find("border_of"))
+        forms.emplace_back(read_border_of(*border_of, limits));
+    if (const auto border_at = reader.find("border_at"))
+        forms.emplace_back(BorderAt{read_location(*border_at)});
+    if (const auto line = reader.find("line"))
+        forms.emplace_back(NamedLine{line->text(limits.name_bytes)});
+    reader.finish();
+    if (forms.size() != 1)
         field.fail(
             "must have exactly one of: vertices, polyline, from and to, border_of, border_at, "
             "line");
-    return curve;
+    return {name, std::move(forms.front())};
 }
 
-RegionRequest read_region(const std::string& name, const Field& field) {
+RegionChoice read_region(const std::string& name, const Field& field) {
     ObjectReader reader(field);
-    RegionRequest region{name == "exterior" ? "lateral" : name == "interior" ? "medial" : name, {}};
-    if (const auto contains = reader.find("contains")) region.contains = read_place(*contains);
+    RegionChoice region{canonical_region(name)};
+    if (const auto contains = reader.find("contains")) region.inside = read_location(*contains);
     reader.finish();
     return region;
 }
 
-/// Which options a method has.
-bool takes_border(Method method) {
-    return method <= Method::mean_value;
-}
-bool takes_angles(Method method) {
-    return method == Method::geodesic_fan;
+/// Whether a method has a choice of borders.
+bool takes_border(MethodName method) {
+    switch (method) {
+        case MethodName::tutte:
+        case MethodName::chord_length:
+        case MethodName::shape_preserving:
+        case MethodName::harmonic:
+        case MethodName::wachspress:
+        case MethodName::mean_value: return true;
+        case MethodName::virtual_border:
+        case MethodName::geodesic_fan:
+        case MethodName::mips:
+        case MethodName::green_lagrange:
+        case MethodName::isometric: return false;
+    }
+    return false;
 }
 
-MethodRequest read_method(const Field& field) {
+MethodOptions read_method(const Field& field) {
     ObjectReader reader(field);
-    MethodRequest method;
-    if (const auto name = reader.find("name")) {
-        method.name = static_cast<Method>(name->choice(method_names()));
-    }
+    MethodOptions method;
+    if (const auto name = reader.find("name")) method.name = name->choice(method_words);
     if (const auto border = reader.find("border")) {
-        method.border =
-            static_cast<Border>(border->choice({"square", "circle", "hull", "floating"}));
+        method.border = border->choice(border_words);
         if (!takes_border(method.name)) border->fail("this method has a border of its own");
     }
     if (const auto angles = reader.find("angles")) {
-        method.angles = static_cast<Angles>(angles->choice({"curvature", "averaged_conformal"}));
-        if (!takes_angles(method.name)) angles->fail("only geodesic_fan has a choice of angles");
+        method.angles = angles->choice(angle_words);
+        if (method.name != MethodName::geodesic_fan)
+            angles->fail("only geodesic_fan has a choice of angles");
     }
     reader.finish();
     return method;
 }
 
-void read_surface(ObjectReader& reader, const RequestLimits& limits, FlattenRequest& request) {
+void read_surface(ObjectReader& reader, const RequestLimits& limits, WeldOptions& weld) {
     if (const auto units = reader.find("units")) {
-        if (units->value.is_number())
-            request.unit_mm = units->number(1e-6, 1e6);
-        else
-            request.units = static_cast<Unit>(units->choice(unit_names()));
+        weld.unit_mm =
+            units->value.is_number() ? units->number(1e-6, 1e6) : units->choice(unit_words);
     }
     if (const auto surface = reader.find("surface")) {
         ObjectReader inner(*surface);
-        if (const auto groups = inner.find("groups"))
-            request.surface_groups = read_names(*groups, limits);
+        if (const auto groups = inner.find("groups")) weld.groups = read_names(*groups, limits);
         inner.finish();
     }
-    if (const auto weld = reader.find("weld")) {
-        ObjectReader inner(*weld);
+    if (const auto field = reader.find("weld")) {
+        ObjectReader inner(*field);
         if (const auto tolerance = inner.find("tolerance_mm"))
-            request.weld_tolerance_mm = tolerance->number(0.0, 1.0);
-        if (const auto stitch = inner.find("stitch_mm"))
-            request.stitch_mm = stitch->number(0.0, 2.0);
-        if (!request.weld_tolerance_mm && !request.stitch_mm)
-            weld->fail("must have \"tolerance_mm\" or \"stitch_mm\"");
+            weld.tolerance_mm = tolerance->number(0.0, 1.0);
+        if (const auto stitch = inner.find("stitch_mm")) weld.stitch_mm = stitch->number(0.0, 2.0);
+        if (!weld.tolerance_mm && !weld.stitch_mm)
+            field->fail("must have \"tolerance_mm\" or \"stitch_mm\"");
         inner.finish();
     }
 }
 
-void read_geometry(ObjectReader& reader, const RequestLimits& limits, FlattenRequest& request) {
+void read_geometry(ObjectReader& reader, const RequestLimits& limits, Request& request) {
     if (const auto points = reader.find("points")) {
-        for (const auto& [name, field] : points->entries(limits.list)) {
-            request.points.emplace_back(name, read_place(field));
-        }
+        for (const auto& [name, field] : points->entries(limits.list))
+            request.points.push_back({name, read_location(field)});
     }
     if (const auto curves = reader.find("curves")) {
-        for (const auto& [name, field] : curves->entries(limits.curves)) {
+        for (const auto& [name, field] : curves->entries(limits.curves))
             request.curves.push_back(read_curve(name, field, limits));
-        }
     }
-    if (const auto cuts = reader.find("cuts")) request.cuts = read_names(*cuts, limits);
-    if (const auto seams = reader.find("seams")) request.seams = read_names(*seams, limits);
-    if (const auto holes = reader.find("holes"))
-        request.holes = static_cast<Holes>(holes->choice({"auto", "keep", "open"}));
+    CutOptions& cut = request.cut;
+    if (const auto cuts = reader.find("cuts")) cut.cuts = read_names(*cuts, limits);
+    if (const auto seams = reader.find("seams")) cut.seams = read_names(*seams, limits);
+    if (const auto holes = reader.find("holes")) cut.holes = holes->choice(hole_words);
     if (const auto regions = reader.find("regions")) {
         for (const auto& [name, field] : regions->entries(limits.regions)) {
-            const RegionRequest region = read_region(name, field);
-            const bool twice = std::any_of(request.regions.begin(), request.regions.end(),
+            const RegionChoice region = read_region(name, field);
+            const bool twice = std::any_of(cut.regions.begin(), cut.regions.end(),
                                            [&](const auto& r) { return r.name == region.name; });
             if (twice) field.fail("names the region '" + region.name + "' a second time");
-            request.regions.push_back(region);
+            cut.regions.push_back(region);
         }
     }
 }
 
-FlattenRequest read_request(const Field& field, const RequestLimits& limits) {
-    FlattenRequest request;
-    ObjectReader reader(field);
-    read_surface(reader, limits, request);
-    read_geometry(reader, limits, request);
-    read_constraint_fields(reader, limits, request);
-    if (const auto method = reader.find("method")) request.method = read_method(*method);
-    const bool weighs = request.weights.stretch != 1.0 || request.weights.compression != 1.0 ||
-                        !request.weights.zones.empty();
-    if (weighs && request.method.name != Method::isometric)
-        reader.find("weights")->fail("only isometric weighs distortion");
-    if (const auto layout = reader.find("layout")) {
-        ObjectReader inner(*layout);
-        if (const auto arrangement = inner.find("arrangement")) (void)arrangement->choice({"pair"});
-        inner.finish();
-    }
-    if (const auto draw = reader.find("draw")) {
-        for (const Field& item : draw->items(limits.list)) {
-            (void)item.choice({"fan"});
-            request.draw_fan = true;
-        }
-    }
-    if (const auto tag = reader.find("tag")) request.tag = tag->text(256);
-    reader.finish();
-    return request;
+bool weighs(const DistortionWeights& weights) {
+    return !weights.even() || !weights.zones.empty();
 }
 
 }  // namespace
 
-const std::vector<std::string>& unit_names() {
-    static const std::vector<std::string> names{"mm", "cm", "m", "in"};
-    return names;
-}
-
-const std::vector<std::string>& method_names() {
-    static const std::vector<std::string> names{
-        "tutte",      "chord_length",   "shape_preserving", "harmonic",
-        "wachspress", "mean_value",     "virtual_border",   "geodesic_fan",
-        "mips",       "green_lagrange", "isometric"};
-    return names;
+FlattenRequest read_flatten_request(const Field& field, const RequestLimits& limits) {
+    FlattenRequest request;
+    Request& asked = request.asked;
+    ObjectReader reader(field);
+    read_surface(reader, limits, asked.weld);
+    read_geometry(reader, limits, asked);
+    read_constraint_fields(reader, limits, asked);
+    if (const auto method = reader.find("method")) asked.method = read_method(*method);
+    if (weighs(asked.weights) && asked.method.name != MethodName::isometric)
+        reader.find("weights")->fail("only isometric weighs distortion");
+    if (const auto layout = reader.find("layout")) {
+        constexpr Word<bool> arrangements[]{{"pair", true}};
+        ObjectReader inner(*layout);
+        if (const auto arrangement = inner.find("arrangement"))
+            (void)arrangement->choice(arrangements);
+        inner.finish();
+    }
+    if (const auto draw = reader.find("draw")) {
+        constexpr Word<bool> drawings[]{{"fan", true}};
+        for (const Field& item : draw->items(limits.list)) asked.draw_fan = item.choice(drawings);
+    }
+    if (const auto tag = reader.find("tag")) request.tag = tag->text(256);
+    reader.finish();
+    return request;
 }
 
 FlattenRequest flatten_request_from_json(std::string_view text, const RequestLimits& limits) {
@@ -235,7 +226,7 @@ FlattenRequest flatten_request_from_json(std::string_view text, const RequestLim
     }
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return {};
     const nlohmann::json document = parse_json(text, limits.depth);
-    return read_request(Field{document, ""}, limits);
+    return read_flatten_request(Field{document, ""}, limits);
 }
 
 JsonSubmission json_submission_from_json(std::string_view text, const RequestLimits& limits) {
@@ -259,7 +250,7 @@ JsonSubmission json_submission_from_json(std::string_view text, const RequestLim
         submission.model = std::move(*bytes);
     }
     if (const auto request = reader.find("request")) {
-        submission.request = read_request(*request, limits);
+        submission.request = read_flatten_request(*request, limits);
         submission.request_text = request->value.dump();
         if (submission.request_text.size() > limits.bytes)
             request->fail("has more than " + std::to_string(limits.bytes) + " bytes");

@@ -3,30 +3,34 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <numbers>
 
-#include "api/report_json.h"
+#include "api/json.h"
+#include "api/request_words.h"
+#include "core/constrain/constraint.h"
+#include "core/result.h"
 
 namespace lastflat::api {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-std::string text_of(const Json& document) {
-    return document.dump(-1, ' ', false, Json::error_handler_t::replace);
+double degrees(double radians) {
+    return radians * 180.0 / std::numbers::pi;
 }
 
-Json to_json(const CurveResult& c) {
+constexpr Word<Verdict> verdict_words[]{
+    {"pass", Verdict::pass}, {"warn", Verdict::warn}, {"fail", Verdict::fail}};
+
+Json report_json(const CurveReport& c) {
     return {{"name", c.name},
             {"locked", c.locked},
             {"length_3d_mm", c.length_3d_mm},
             {"length_2d_mm", c.length_2d_mm},
             {"error_mm", c.error_mm},
             {"worst_edge_error_mm", c.worst_edge_error_mm},
-            {"verdict", c.verdict}};
+            {"verdict", word_of(verdict_words, c.verdict)}};
 }
 
-Json to_json(const MetricsResult& m) {
+Json report_json(const Metrics& m) {
     return {{"stretch_l2", m.stretch_l2},
             {"stretch_linf", m.stretch_linf},
             {"stretch_l2_normalised", m.stretch_l2_normalised},
@@ -37,64 +41,94 @@ Json to_json(const MetricsResult& m) {
             {"area_2d_mm2", m.area_2d_mm2},
             {"area_error", m.area_error},
             {"area_error_p95", m.area_error_p95},
-            {"area_verdict", m.area_verdict},
+            {"area_verdict", word_of(verdict_words, m.area_verdict)},
             {"flipped_triangles", m.flipped_triangles},
             {"border_crossings", m.border_crossings}};
 }
 
-Json or_null(const std::optional<double>& value) {
-    return value ? Json(*value) : Json(nullptr);
+Json or_null(double bound) {
+    return std::isfinite(bound) ? Json(bound) : Json(nullptr);
 }
 
-Json to_json(const ConstraintResult& c) {
-    return {{"kind", c.kind},
-            {"title", c.title},
-            {"pointer", c.pointer},
-            {"region", c.region},
-            {"unit", c.unit},
-            {"asked_min", or_null(c.asked_min)},
-            {"asked_max", or_null(c.asked_max)},
-            {"reached", c.reached},
-            {"residual_mm", c.residual_mm},
-            {"position", c.position},
-            {"verdict", c.verdict}};
+Json report_json(const ConstraintReport& report, const Constraint& constraint) {
+    const bool is_area = std::holds_alternative<TotalArea>(constraint.demand);
+    return {{"kind", name(constraint)},
+            {"title", title(constraint)},
+            {"pointer", json_pointer(constraint.option)},
+            {"region", report.region},
+            {"unit", is_area ? "mm2" : "mm"},
+            {"asked_min", or_null(report.asked_min)},
+            {"asked_max", or_null(report.asked_max)},
+            {"reached", report.reached},
+            {"residual_mm", report.residual_mm},
+            {"position", json_of(report.position)},
+            {"verdict", report.kept      ? "pass"
+                        : report.relaxed ? "relaxed"
+                                         : "fail"}};
 }
 
-Json to_json(const PercentilesResult& p) {
+Json report_json(const StretchPercentiles& p) {
     return {{"p01", p.p01}, {"p05", p.p05}, {"p50", p.p50}, {"p95", p.p95}, {"p99", p.p99}};
 }
 
-Json to_json(const StretchResult& s) {
+Json report_json(const StretchReport& s) {
     Json worst = Json::array();
-    for (const auto& w : s.worst) {
-        worst.push_back({{"position", w.position},
+    for (const WorstPlace& w : s.worst) {
+        worst.push_back({{"position", json_of(w.position)},
                          {"larger_percent", w.larger_percent},
                          {"smaller_percent", w.smaller_percent}});
     }
-    Json json{{"larger_percent", to_json(s.larger_percent)},
-              {"smaller_percent", to_json(s.smaller_percent)},
+    Json json{{"larger_percent", report_json(s.larger)},
+              {"smaller_percent", report_json(s.smaller)},
               {"most_stretched_percent", s.most_stretched_percent},
               {"most_compressed_percent", s.most_compressed_percent},
               {"worst", std::move(worst)}};
     if (s.material_verdict) {
-        json["beyond_material"] = *s.beyond_material;
-        json["material_verdict"] = *s.material_verdict;
+        json["beyond_material"] = s.beyond_material;
+        json["material_verdict"] = word_of(verdict_words, *s.material_verdict);
     }
     return json;
 }
 
-Json to_json(const FanResult& f) {
-    Json spokes = Json::array();
-    for (const auto& s : f.spokes) {
-        spokes.push_back(
-            {{"index", s.index}, {"angle_deg", s.angle_deg}, {"distance_mm", s.distance_mm}});
+/// The vertices of a region as the model knows them.
+class Sources {
+public:
+    Sources(const FlattenResult& result, const Region& region) : result_(result), region_(region) {}
+
+    /// The id in the file; nothing: a curve made it.
+    [[nodiscard]] std::optional<Index> file_vertex(Index vertex) const {
+        const Index source = region_.source_vertices[at(vertex)];
+        return at(source) < result_.file_vertices ? std::optional(source) : std::nullopt;
     }
-    return {{"centre_vertex", f.centre_vertex < 0 ? Json() : Json(f.centre_vertex)},
-            {"a_1_mm", f.a_1_mm},
-            {"a_inf_mm", f.a_inf_mm},
-            {"radius_mm", f.radius_mm},
+    /// Of a vertex that a curve made: the vertices of the file between which it lies.
+    [[nodiscard]] const SurfacePlace& made_at(Index vertex) const {
+        return result_
+            .added_vertices[at(region_.source_vertices[at(vertex)]) - result_.file_vertices];
+    }
+
+private:
+    const FlattenResult& result_;
+    const Region& region_;
+};
+
+Json fan_json(const FlatRegion& flat, const Sources& sources) {
+    const GeodesicFan& fan = *flat.fan;
+    Json spokes = Json::array();
+    for (std::size_t i = 0; i < fan.spokes.size(); ++i) {
+        spokes.push_back({{"index", flat.region.border[i]},
+                          {"angle_deg", degrees(fan.spokes[i].angle)},
+                          {"distance_mm", fan.spokes[i].distance}});
+    }
+    const auto centre = sources.file_vertex(fan.centre);
+    return {{"centre_vertex", centre ? Json(*centre) : Json()},
+            {"a_1_mm", fan.mean_distance},
+            {"a_inf_mm", fan.greatest_distance},
+            {"radius_mm", fan.radius},
             {"spokes", std::move(spokes)}};
 }
+
+// What grows with the mesh is written by hand: as JSON values it would take several times as long,
+// which is a tenth of the time of a small job.
 
 void append(std::string& text, double value) {
     if (!std::isfinite(value)) {
@@ -105,25 +139,34 @@ void append(std::string& text, double value) {
     text.append(digits.data(),
                 std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
 }
-void append(std::string& text, std::int32_t value) {
+
+void append(std::string& text, Index value) {
     text += std::to_string(value);
 }
-template <class List>
-void append(std::string& text, const List& list);
 
-void append(std::string& text, const LoopResult& loop) {
-    Json segments = Json::array();
-    for (const auto& s : loop.segments)
-        segments.push_back({{"curve", s.curve}, {"first", s.first}, {"last", s.last}});
-    text += "{\"points_mm\":";
-    append(text, loop.points_mm);
-    text += ",\"segments\":" + text_of(segments) + "}";
+template <int size>
+void append(std::string& text, const Eigen::Matrix<double, size, 1>& point) {
+    for (Eigen::Index i = 0; i < size; ++i) {
+        text += i == 0 ? '[' : ',';
+        append(text, point[i]);
+    }
+    text += ']';
 }
 
-template <class List>
-void append(std::string& text, const List& list) {
+void append(std::string& text, const Triangle& triangle) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        text += i == 0 ? '[' : ',';
+        append(text, triangle[i]);
+    }
+    text += ']';
+}
+
+void append(std::string& text, const OutlineLoop& loop);
+
+template <class Item>
+void append(std::string& text, const std::vector<Item>& list) {
     text += '[';
-    for (const auto& item : list) {
+    for (const Item& item : list) {
         append(text, item);
         text += ',';
     }
@@ -131,158 +174,132 @@ void append(std::string& text, const List& list) {
     text += ']';
 }
 
-/// What grows with the mesh, as the members of an object. Written by hand: as JSON values it would
-/// take several times as long, which is a tenth of the time of a small job.
-std::string geometry_text(const RegionResult& r) {
-    std::string text = "\"uv_mm\":";
-    append(text, r.uv_mm);
-    text += ",\"triangles\":";
-    append(text, r.triangles);
+void append(std::string& text, const OutlineLoop& loop) {
+    Json segments = Json::array();
+    for (const OutlineSegment& s : loop.segments)
+        segments.push_back({{"curve", s.curve}, {"first", s.first}, {"last", s.last}});
+    text += "{\"points_mm\":";
+    append(text, loop.points);
+    text += ",\"segments\":" + text_of(segments) + "}";
+}
+
+/// The way back to the model: ids of the file, and places between them for vertices that curves
+/// made.
+void append_sources(std::string& text, const Region& region, const Sources& sources) {
+    std::string points;
     text += ",\"source_vertices\":[";
-    for (const std::int32_t source : r.source_vertices)
-        text += (source < 0 ? "null" : std::to_string(source)) + ",";
-    if (text.back() == ',') text.pop_back();
-    text += "],\"source_points\":[";
-    for (const SourcePoint& point : r.source_points) {
-        text += "{\"vertex\":" + std::to_string(point.vertex) + ",\"triangle\":";
-        append(text, point.triangle);
-        text += ",\"weights\":";
-        append(text, point.weights);
-        text += "},";
+    for (Index v = 0; at(v) < region.source_vertices.size(); ++v) {
+        const auto file_vertex = sources.file_vertex(v);
+        text += (file_vertex ? std::to_string(*file_vertex) : "null") + ",";
+        if (file_vertex) continue;
+        const SurfacePlace& made = sources.made_at(v);
+        points += "{\"vertex\":" + std::to_string(v) + ",\"triangle\":";
+        append(points, made.corners);
+        points += ",\"weights\":";
+        append(points, made.weights);
+        points += "},";
     }
     if (text.back() == ',') text.pop_back();
-    text += ']';
+    if (!points.empty()) points.pop_back();
+    text += "],\"source_points\":[" + points + "]";
+}
+
+/// The members of an object.
+std::string geometry_text(const FlatRegion& flat, const Sources& sources) {
+    std::string text = "\"uv_mm\":";
+    append(text, flat.chart.uv);
+    text += ",\"triangles\":";
+    append(text, flat.region.triangles);
+    append_sources(text, flat.region, sources);
     text += ",\"outline\":";
-    append(text, r.outline);
+    append(text, flat.outline);
     text += ",\"holes\":";
-    append(text, r.holes);
+    append(text, flat.outline.holes);
     return text;
 }
 
-Json to_json(const RegionResult& r) {
-    Json json{{"name", r.name}, {"method", r.method}};
+std::string region_text(const FlattenResult& result, const FlatRegion& flat, bool with_geometry) {
+    const Sources sources(result, flat.region);
+    Json json{{"name", flat.region.name},
+              {"method", word_of(method_words, result.plan.request.method.name)}};
     json["curves"] = Json::array();
-    for (const auto& c : r.curves) json["curves"].push_back(to_json(c));
-    json["metrics"] = to_json(r.metrics);
-    json["stretch"] = to_json(r.stretch);
-    json["iterations"] = r.iterations;
-    if (r.energy) json["energy"] = *r.energy;
-    if (r.projected_gradient) json["projected_gradient"] = *r.projected_gradient;
-    if (r.fan) json["fan"] = to_json(*r.fan);
-    return json;
+    for (const CurveReport& c : flat.curves) json["curves"].push_back(report_json(c));
+    json["metrics"] = report_json(flat.metrics);
+    json["stretch"] = report_json(flat.stretch);
+    json["iterations"] = flat.iterations;
+    if (flat.energy) json["energy"] = *flat.energy;
+    if (flat.projected_gradient) json["projected_gradient"] = *flat.projected_gradient;
+    if (!with_geometry) return text_of(json);
+    if (flat.fan) json["fan"] = fan_json(flat, sources);
+    std::string text = text_of(json);
+    text.pop_back();
+    return text + "," + geometry_text(flat, sources) + "}";
 }
 
-}  // namespace
-
-namespace {
-
-std::string region_text(const RegionResult& r, bool with_geometry) {
-    Json json = to_json(r);
-    if (!with_geometry) json.erase("fan");
-    std::string text = text_of(json);
-    if (!with_geometry) return text;
-    text.pop_back();
-    return text + "," + geometry_text(r) + "}";
+Json layout_json(const FlattenResult& result) {
+    Json placements = Json::array();
+    for (std::size_t r = 0; r < result.sheet.placements.size(); ++r) {
+        const Placement& p = result.sheet.placements[r];
+        placements.push_back({{"region", result.regions[r].region.name},
+                              {"rotation_deg", degrees(p.rotation)},
+                              {"translation_mm", json_of(p.translation)},
+                              {"mirrored", p.mirrored}});
+    }
+    return {{"width_mm", result.sheet.width},
+            {"height_mm", result.sheet.height},
+            {"placements", std::move(placements)}};
 }
 
 /// Everything but the regions.
-Json rest_of(const FlattenResult& result, bool with_geometry) {
-    Json pairs = Json::array(), constraints = Json::array(), placements = Json::array(),
-         warnings = Json::array();
-    for (const auto& p : result.pairs) {
+Json rest_of(const FlattenResult& result, const std::string& version, bool with_geometry) {
+    Json pairs = Json::array(), constraints = Json::array();
+    for (const PairReport& p : result.pairs) {
         pairs.push_back({{"curve", p.curve},
                          {"a", p.a},
                          {"b", p.b},
                          {"length_mm", p.length_mm},
                          {"difference_mm", p.difference_mm},
-                         {"verdict", p.verdict}});
+                         {"verdict", word_of(verdict_words, p.verdict)}});
     }
-    for (const auto& c : result.constraints) constraints.push_back(to_json(c));
-    for (const auto& p : result.placements) {
-        placements.push_back({{"region", p.region},
-                              {"rotation_deg", p.rotation_deg},
-                              {"translation_mm", p.translation_mm},
-                              {"mirrored", p.mirrored}});
-    }
-    for (const auto& w : result.warnings) {
-        warnings.push_back({{"code", w.code}, {"detail", w.detail}});
-        if (w.position) warnings.back()["position"] = *w.position;
-    }
+    for (const ConstraintReport& report : result.constraints)
+        constraints.push_back(report_json(report, result.asked[report.constraint]));
     Json document{{"pairs", std::move(pairs)}, {"constraints", std::move(constraints)}};
-    if (with_geometry) {
-        document["layout"] = {{"width_mm", result.width_mm},
-                              {"height_mm", result.height_mm},
-                              {"placements", std::move(placements)}};
+    if (with_geometry) document["layout"] = layout_json(result);
+    document["warnings"] = json_of(result.warnings);
+    document["repairs"] = json_of(result.repairs);
+    if (result.plan.landmarks && with_geometry) document["found"] = json_of(result.plan);
+    if (!result.added_vertices.empty()) {
+        document["added_vertices"] = {{"count", result.added_vertices.size()},
+                                      {"smallest_angle_deg", degrees(result.smallest_added_angle)}};
     }
-    document["warnings"] = std::move(warnings);
-    document["repairs"] = repairs_json(result.repairs);
-    if (result.found && with_geometry) document["found"] = found_json(*result.found);
-    if (result.added)
-        document["added_vertices"] = {{"count", result.added->count},
-                                      {"smallest_angle_deg", result.added->smallest_angle_deg}};
-    document["timing_ms"] = {{"load", result.load_ms},
-                             {"cut", result.cut_ms},
-                             {"parameterize", result.parameterize_ms},
-                             {"constrain", result.constrain_ms},
-                             {"total", result.total_ms}};
-    document["version"] = result.version;
+    const Timing& t = result.timing;
+    document["timing_ms"] = {{"load", t.load_ms},
+                             {"cut", t.cut_ms},
+                             {"parameterize", t.parameterize_ms},
+                             {"constrain", t.constrain_ms},
+                             {"total", t.total_ms}};
+    document["version"] = version;
     return document;
 }
 
-std::string text_of(const FlattenResult& result, bool with_geometry) {
+std::string document_of(const FlattenResult& result, const std::string& version,
+                        bool with_geometry) {
     std::string text = "{\"regions\":[";
-    for (const RegionResult& r : result.regions) {
+    for (const FlatRegion& flat : result.regions) {
         if (text.back() == '}') text += ',';
-        text += region_text(r, with_geometry);
+        text += region_text(result, flat, with_geometry);
     }
-    return text + "]," + text_of(rest_of(result, with_geometry)).substr(1);
+    return text + "]," + text_of(rest_of(result, version, with_geometry)).substr(1);
 }
 
 }  // namespace
 
-Json repairs_json(const std::vector<RepairResult>& repairs) {
-    Json list = Json::array();
-    for (const RepairResult& repair : repairs) {
-        list.push_back({{"code", repair.code},
-                        {"count", repair.count},
-                        {"detail", repair.detail},
-                        {"positions", repair.positions}});
-    }
-    return list;
+std::string to_json(const FlattenResult& result, const std::string& version) {
+    return document_of(result, version, true);
 }
 
-Json found_json(const FoundLandmarks& found) {
-    Json curves = Json::object();
-    for (const FoundCurve& curve : found.curves) {
-        if (curve.polyline.empty())
-            curves[curve.name] = {{"vertices", curve.vertices}};
-        else
-            curves[curve.name] = {{"polyline", curve.polyline}};
-    }
-    Json request{{"curves", std::move(curves)},
-                 {"cuts", {"featherline", "topline", "centre_front", "heel"}},
-                 {"regions",
-                  {{"lateral", {{"contains", {{"vertex", found.lateral_vertex}}}}},
-                   {"medial", {{"contains", {{"vertex", found.medial_vertex}}}}}}},
-                 {"locks", {{{"curve", "centre_front"}}, {{"curve", "heel"}}}}};
-    return {{"foot", found.foot},
-            {"up", found.up},
-            {"forward", found.forward},
-            {"heel_point", found.heel_point},
-            {"toe_point", found.toe_point},
-            {"confidence",
-             {{"featherline", found.featherline_confidence},
-              {"topline", found.topline_confidence},
-              {"sides", found.sides_confidence}}},
-            {"request", std::move(request)}};
-}
-
-std::string to_json(const FlattenResult& result) {
-    return text_of(result, true);
-}
-
-std::string metrics_json(const FlattenResult& result) {
-    return text_of(result, false);
+std::string metrics_json(const FlattenResult& result, const std::string& version) {
+    return document_of(result, version, false);
 }
 
 }  // namespace lastflat::api

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "api/words.h"
+
 namespace lastflat::api {
 
 /// mm; no last is a kilometre long.
@@ -45,6 +47,15 @@ struct Field {
     [[nodiscard]] std::vector<Field> items(std::size_t most) const;
     /// Names and values of an object whose names are free.
     [[nodiscard]] std::vector<std::pair<std::string, Field>> entries(std::size_t most) const;
+    /// What one of the table's words stands for.
+    template <class Value, std::size_t size>
+    [[nodiscard]] Value choice(const Word<Value> (&table)[size]) const {
+        if (value.is_string()) {
+            const auto found = value_of(table, value.get_ref<const std::string&>());
+            if (found) return *found;
+        }
+        fail("must be one of: " + listed(table));
+    }
     /// One of the listed words; returns its place in the list.
     [[nodiscard]] std::size_t choice(const std::vector<std::string>& words) const;
 };

@@ -2,21 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <map>
 #include <numeric>
 
+#include "core/cut/open_holes.h"
 #include "core/prepare.h"
 
 namespace lastflat {
 namespace {
-
-std::vector<std::pair<std::string, std::size_t>> count_groups(const RawMesh& raw) {
-    std::map<std::string, std::size_t> counts;
-    for (const std::uint32_t label : raw.triangle_labels) {
-        for (const std::string& group : raw.label_sets[label]) ++counts[group];
-    }
-    return {counts.begin(), counts.end()};
-}
 
 std::size_t count_components(const TriMesh& mesh) {
     std::vector<bool> seen(mesh.n_faces(), false);
@@ -94,30 +86,25 @@ InspectedRegion inspected(const Region& region) {
 
 }  // namespace
 
-Inspection inspect(std::string_view model, const FlattenOptions& asked) {
-    FlattenOptions options = asked;
+Inspection inspect(std::string_view model, const FlattenOptions& options) {
+    Progress progress;
+    ReadModel read = read_model(model, options, progress);
     Inspection found;
-    const RawMesh raw = load_model(model, options.limits);
-    found.file_vertices = raw.positions.size();
-    found.file_triangles = raw.triangles.size();
-    found.groups = count_groups(raw);
-    SurfaceMesh surface = weld(raw, options.weld);
-    found.unit_mm = surface.unit_mm;
-    found.warnings = surface.warnings;
-    found.repairs = surface.repairs;
-    measure_surface(surface.mesh, found);
-    name_welded_vertices(surface, options);
+    found.file_vertices = read.vertices;
+    found.file_triangles = read.triangles;
+    found.groups = std::move(read.groups);
+    found.unit_mm = read.surface.unit_mm;
+    found.warnings = read.surface.warnings;
+    found.repairs = read.surface.repairs;
+    measure_surface(read.surface.mesh, found);
     try {
-        found.landmarks = fill_in_landmarks(surface, options);
-        if (found.landmarks)
-            found.warnings.insert(found.warnings.end(), found.landmarks->warnings.begin(),
-                                  found.landmarks->warnings.end());
-        const Found by_itself = !found.landmarks       ? Found::none
-                                : asked.curves.empty() ? Found::all
-                                                       : Found::some;
-        const CutSurface cut = cut_surface(surface, options, by_itself, Progress());
-        found.warnings.insert(found.warnings.end(), cut.warnings.begin(), cut.warnings.end());
-        for (const Region& region : cut.regions) found.regions.push_back(inspected(region));
+        found.plan = make_plan(read.surface, options.request);
+        if (const auto& landmarks = found.plan.landmarks)
+            found.warnings.insert(found.warnings.end(), landmarks->warnings.begin(),
+                                  landmarks->warnings.end());
+        Prepared prepared = prepare(std::move(read.surface), found.plan, progress);
+        found.warnings = std::move(prepared.warnings);
+        for (const Region& region : prepared.regions) found.regions.push_back(inspected(region));
     } catch (const Error& error) {
         found.fault = error;
     }

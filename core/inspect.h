@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/flatten.h"
+#include "core/error.h"
+#include "core/plan/plan.h"
 
 namespace lastflat {
 
@@ -41,7 +42,7 @@ struct Inspection {
     std::optional<Error> fault;  ///< why it cannot be cut into regions as asked
     std::vector<Warning> warnings;
     std::vector<Repair> repairs;
-    std::optional<Landmarks> landmarks;  ///< of a bare last
+    Plan plan;  ///< empty if not even that could be made
 };
 
 /// Runs the stages before the flattening.

@@ -1,35 +1,44 @@
-// From a mended surface to regions: what `flatten` and `inspect` do before all else.
+// From a model's bytes to regions: what comes before any flattening.
 #pragma once
 
-#include "core/flatten.h"
+#include <string_view>
+
+#include "core/cut/cut_surface.h"
 
 namespace lastflat {
 
-/// A request that says nothing of cuts, seams, regions or groups, of a closed last: what it would
-/// have said is found (see `find_landmarks`) and filled in. Curves that it does name stand in for
-/// those that would be found, which are not among those of the result; without constraints the
-/// centre line is locked.
-[[nodiscard]] std::optional<Landmarks> fill_in_landmarks(const SurfaceMesh& surface,
-                                                         FlattenOptions& options);
-
-/// How many of the curves, cuts and regions were found, not asked for by name.
-enum class Found { none, some, all };
-
-struct CutSurface {
-    InsertedCurves inserted;
-    std::vector<Region> regions;
-    std::vector<Warning> warnings;
+/// A model, read and mended.
+struct ReadModel {
+    std::size_t vertices = 0, triangles = 0;                  ///< of the file
+    std::vector<std::pair<std::string, std::size_t>> groups;  ///< names, triangles; of the file
+    SurfaceMesh surface;
+    double load_ms = 0.0;
 };
 
-/// Puts the curves of the options into the surface, cuts it, and opens holes; every seam, whether
-/// asked for or made, becomes a constraint. Constraints and zones are then known to fit the
-/// regions.
-/// Throws: Error, as `locate_curves`, `insert_curves`, `cut_into_regions`, `check_constraints`;
-///         Error{region_invalid} if found curves cannot be put in.
-[[nodiscard]] CutSurface cut_surface(SurfaceMesh& surface, FlattenOptions& options, Found found,
-                                     const Progress& progress);
+/// Throws: Error, of `load_model` and `weld`.
+[[nodiscard]] ReadModel read_model(std::string_view model, const FlattenOptions& options,
+                                   Progress& progress);
 
-/// Ids of vertices that were welded away become the ids of those that stand for them.
-void name_welded_vertices(const SurfaceMesh& surface, FlattenOptions& options);
+/// Regions, and all that is to be done with them.
+struct Prepared {
+    Plan plan;
+    std::vector<Region> regions;
+    std::vector<Constraint> constraints;  ///< the plan's, and one for every seam
+    std::size_t file_vertices = 0;
+    /// Vertices that curves made, in the order of their ids, which follow those of the file.
+    std::vector<SurfacePlace> added_vertices;
+    double smallest_added_angle = 0.0;  ///< of the triangles that curves made; radians
+    std::vector<Warning> warnings;
+    std::vector<Repair> repairs;  ///< what was changed in the model before
+    double load_ms = 0.0;
+};
+
+/// Cuts the surface as planned. Constraints and zones then fit the regions.
+/// Throws: Error, as `cut_surface`, `check_constraints`, `check_zones`.
+[[nodiscard]] Prepared prepare(SurfaceMesh surface, Plan plan, Progress& progress);
+
+/// All of it: `read_model`, `make_plan`, and the above.
+[[nodiscard]] Prepared prepare(std::string_view model, const FlattenOptions& options,
+                               Progress& progress);
 
 }  // namespace lastflat

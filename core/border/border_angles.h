@@ -3,13 +3,9 @@
 
 #include "core/cut/one_rings.h"
 #include "core/cut/region.h"
+#include "core/request.h"
 
 namespace lastflat {
-
-enum class AngleRule {
-    curvature,           ///< right globally: the conformal map that keeps border lengths
-    averaged_conformal,  ///< the paper's: one ring deep
-};
 
 struct BorderAngles {
     std::vector<double> turning;  ///< per border vertex, its exterior angle; their sum is 2 pi

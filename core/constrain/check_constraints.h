@@ -3,7 +3,6 @@
 
 #include "core/constrain/constraint.h"
 #include "core/cut/insert_curves.h"
-#include "core/parameterize/distortion_weights.h"
 
 namespace lastflat {
 

@@ -69,8 +69,8 @@ public:
               const std::vector<Constraint>& constraints)
         : domain_(domain), rows_(rows), constraints_(constraints), bounds_(bounded_edges(rows)) {
         for (const BoundedEdges& bound : bounds_) {
-            const Constraint& constraint = constraints[bound.constraint];
-            if (constraint.kind != ConstraintKind::lock || constraint.keep != Keep::edges) continue;
+            const Lock* lock = std::get_if<Lock>(&constraints[bound.constraint].demand);
+            if (lock == nullptr || lock->keep != Keep::edges) continue;
             locked_.emplace(*bound.edges.begin(), bound.constraint);
         }
     }
@@ -176,13 +176,13 @@ private:
     [[nodiscard]] std::optional<OpenLoop> straight_sides(std::size_t r) const {
         std::set<std::size_t> straight;  // constraints with rows in this region
         for (const ConstraintRow& row : rows_) {
-            if (constraints_[row.constraint].kind == ConstraintKind::straight &&
+            if (std::holds_alternative<Straight>(constraints_[row.constraint].demand) &&
                 domain_.region_of(row.vertex) == r)
                 straight.insert(row.constraint);
         }
         for (const std::size_t c : straight) {
             for (const CurveRun& run : domain_.regions[r]->runs) {
-                if (run.curve != constraints_[c].curve) continue;
+                if (run.curve != std::get<Straight>(constraints_[c].demand).curve) continue;
                 if (auto found = straight_side(r, c, run)) return found;
             }
         }
@@ -222,7 +222,7 @@ private:
         const MostLength perimeter = most_length(bounds_, border_edges(r));
         if (!perimeter.bounded) return std::nullopt;
         for (const ConstraintRow& row : rows_) {
-            if (constraints_[row.constraint].kind != ConstraintKind::total_area) continue;
+            if (!std::holds_alternative<TotalArea>(constraints_[row.constraint].demand)) continue;
             if (domain_.region_of(row.vertex) != r || !(row.least > 0.0)) continue;
             const double needed = std::sqrt(4.0 * std::numbers::pi * row.least * row.reference);
             const double gap = needed - perimeter.length;

@@ -4,61 +4,74 @@
 #include <set>
 
 namespace lastflat {
+namespace {
 
-std::string_view name(ConstraintKind kind) {
-    switch (kind) {
-        case ConstraintKind::lock: return "lock";
-        case ConstraintKind::range: return "range";
-        case ConstraintKind::match: return "match";
-        case ConstraintKind::straight: return "straight";
-        case ConstraintKind::total_area: return "total_area";
-        case ConstraintKind::pin: return "pin";
-        case ConstraintKind::seam: return "seam";
+struct Namer {
+    std::string_view operator()(const Lock&) const { return "lock"; }
+    std::string_view operator()(const Range&) const { return "range"; }
+    std::string_view operator()(const Match&) const { return "match"; }
+    std::string_view operator()(const Straight&) const { return "straight"; }
+    std::string_view operator()(const TotalArea&) const { return "total_area"; }
+    std::string_view operator()(const Pin&) const { return "pin"; }
+    std::string_view operator()(const Seam&) const { return "seam"; }
+};
+
+std::string in(const std::string& region) {
+    return region.empty() ? "" : " in " + region;
+}
+
+struct Titler {
+    std::string operator()(const Lock& c) const { return "lock of " + c.curve + in(c.region); }
+    std::string operator()(const Range& c) const { return "range of " + c.curve + in(c.region); }
+    std::string operator()(const Match& c) const {
+        return "match of " + c.curve + in(c.region) + " with " + c.with_curve;
     }
-    return "unknown";
-}
-
-std::string Constraint::title() const {
-    const std::string where =
-        region.empty() || kind == ConstraintKind::total_area ? "" : " in " + region;
-    switch (kind) {
-        case ConstraintKind::lock: return "lock of " + curve + where;
-        case ConstraintKind::range: return "range of " + curve + where;
-        case ConstraintKind::match: return "match of " + curve + where + " with " + with_curve;
-        case ConstraintKind::straight: return "straight " + curve + where;
-        case ConstraintKind::total_area:
-            return region.empty() ? "total area" : "total area of " + region;
-        case ConstraintKind::pin: return "pin of vertex " + std::to_string(vertex) + where;
-        case ConstraintKind::seam: return "seam along " + curve;
+    std::string operator()(const Straight& c) const { return "straight " + c.curve + in(c.region); }
+    std::string operator()(const TotalArea& c) const {
+        return c.region.empty() ? "total area" : "total area of " + c.region;
     }
-    return {};
+    std::string operator()(const Pin& c) const {
+        return "pin of vertex " + std::to_string(c.vertex) + in(c.region);
+    }
+    std::string operator()(const Seam& c) const { return "seam along " + c.curve; }
+};
+
+}  // namespace
+
+std::string_view name(const Constraint& constraint) {
+    return std::visit(Namer{}, constraint.demand);
 }
 
-Constraint lock(std::string curve, Keep keep) {
-    Constraint constraint;
-    constraint.curve = std::move(curve);
-    constraint.keep = keep;
-    return constraint;
+std::string title(const Constraint& constraint) {
+    return std::visit(Titler{}, constraint.demand);
 }
 
-Constraint seam(std::string curve) {
-    Constraint constraint;
-    constraint.kind = ConstraintKind::seam;
-    constraint.curve = std::move(curve);
-    return constraint;
+bool binds(const std::string& wanted, const Region& region) {
+    return wanted.empty() || wanted == region.name;
+}
+
+std::vector<const CurveRun*> runs_locked_by_edges(const Region& region,
+                                                  const std::vector<Constraint>& constraints) {
+    const auto is_locked = [&](const CurveRun& run) {
+        return std::any_of(constraints.begin(), constraints.end(), [&](const Constraint& c) {
+            const Lock* lock = std::get_if<Lock>(&c.demand);
+            return lock != nullptr && lock->keep == Keep::edges && lock->curve == run.curve &&
+                   binds(lock->region, region);
+        });
+    };
+    std::vector<const CurveRun*> locked;
+    for (const CurveRun& run : region.runs) {
+        if (is_locked(run)) locked.push_back(&run);
+    }
+    return locked;
 }
 
 std::vector<bool> locked_border_edges(const Region& region,
                                       const std::vector<Constraint>& constraints) {
     std::set<std::pair<Index, Index>> kept;
-    for (const Constraint& constraint : constraints) {
-        if (constraint.kind != ConstraintKind::lock || constraint.keep != Keep::edges) continue;
-        if (!constraint.region.empty() && constraint.region != region.name) continue;
-        for (const CurveRun& run : region.runs) {
-            if (run.curve != constraint.curve) continue;
-            for (std::size_t i = 1; i < run.vertices.size(); ++i)
-                kept.insert(std::minmax(run.vertices[i - 1], run.vertices[i]));
-        }
+    for (const CurveRun* run : runs_locked_by_edges(region, constraints)) {
+        for (std::size_t i = 1; i < run->vertices.size(); ++i)
+            kept.insert(std::minmax(run->vertices[i - 1], run->vertices[i]));
     }
     const std::size_t n = region.border.size();
     std::vector<bool> locked(n);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/constrain/pins.h"
 #include "core/cut/seam_stretches.h"
 #include "core/error.h"
 #include "core/numerics/disjoint_sets.h"
@@ -19,10 +20,6 @@ struct Side {
     std::vector<Index> vertices;
 };
 
-bool names(const std::string& wanted, const std::string& region) {
-    return wanted.empty() || wanted == region;
-}
-
 /// Stretches of curves, each with the place of its region.
 using Sides = std::vector<std::pair<std::size_t, const CurveRun*>>;
 
@@ -30,7 +27,7 @@ Sides runs_of(const std::vector<const Region*>& regions, const std::string& curv
               const std::string& region) {
     Sides runs;
     for (std::size_t r = 0; r < regions.size(); ++r) {
-        if (!names(region, regions[r]->name)) continue;
+        if (!binds(region, *regions[r])) continue;
         for (const CurveRun& run : regions[r]->runs) {
             if (run.curve == curve) runs.emplace_back(r, &run);
         }
@@ -39,7 +36,7 @@ Sides runs_of(const std::vector<const Region*>& regions, const std::string& curv
 }
 
 /// The two sides of a match, if it names two.
-Sides match_sides(const std::vector<const Region*>& regions, const Constraint& match) {
+Sides match_sides(const std::vector<const Region*>& regions, const Match& match) {
     Sides sides = runs_of(regions, match.curve, match.region);
     if (match.curve == match.with_curve && match.region == match.with_region) return sides;
     const Sides others = runs_of(regions, match.with_curve, match.with_region);
@@ -56,49 +53,74 @@ public:
     }
 
     std::vector<ConstraintRow> run() {
-        for (current_ = 0; current_ < constraints_.size(); ++current_) add_rows();
+        for (current_ = 0; current_ < constraints_.size(); ++current_) {
+            std::visit([&](const auto& demand) { add(demand); }, constraints_[current_].demand);
+        }
         return std::move(rows_);
     }
 
 private:
-    [[nodiscard]] const Constraint& constraint() const { return constraints_[current_]; }
+    void add(const Lock& lock) {
+        for (const Side& side : sides(lock)) {
+            if (lock.keep == Keep::edges)
+                lock_edges(side);
+            else
+                bound_length(side, 0.0, 0.0);
+        }
+    }
 
-    [[nodiscard]] std::vector<Side> sides() const {
-        return in_domain(runs_of(domain_.regions, constraint().curve, constraint().region));
+    void add(const Range& range) {
+        for (const Side& side : sides(range))
+            bound_length(side, range.min_percent, range.max_percent);
+    }
+
+    void add(const Match& asked) {
+        const auto both = in_domain(match_sides(domain_.regions, asked));
+        if (both.size() == 2) match(both[0], both[1]);  // else they are in another domain
+    }
+
+    void add(const Straight& straight) {
+        for (const Side& side : sides(straight)) straighten(side);
+    }
+
+    void add(const TotalArea& area) {
+        for (std::size_t r = 0; r < domain_.regions.size(); ++r) {
+            if (binds(area.region, *domain_.regions[r])) bound_area(r, area);
+        }
+    }
+
+    void add(const Pin& pin) {
+        for (std::size_t r = 0; r < domain_.regions.size(); ++r) {
+            const auto pinned = pinned_vertices(*domain_.regions[r], pin);
+            if (!pinned.empty()) hold(r, pinned.front());
+        }
+    }
+
+    void add(const Seam& seam) {
+        for (const SeamStretch& both : seam_stretches(domain_.regions, seam.curve))
+            match(in_domain(both.a.region, both.a.vertices),
+                  in_domain(both.b.region, both.b.vertices));
+    }
+
+    /// Of a curve, where the constraint binds it.
+    template <class OfCurve>
+    [[nodiscard]] std::vector<Side> sides(const OfCurve& demand) const {
+        return in_domain(runs_of(domain_.regions, demand.curve, demand.region));
+    }
+
+    [[nodiscard]] Side in_domain(std::size_t r, std::vector<Index> vertices) const {
+        for (Index& v : vertices) v += domain_.first[r];
+        return {std::move(vertices)};
     }
 
     [[nodiscard]] std::vector<Side> in_domain(const Sides& runs) const {
         std::vector<Side> result;
-        for (const auto& [r, run] : runs) {
-            Side side{run->vertices};
-            for (Index& v : side.vertices) v += domain_.first[r];
-            result.push_back(std::move(side));
-        }
+        for (const auto& [r, run] : runs) result.push_back(in_domain(r, run->vertices));
         return result;
     }
 
-    void add_rows() {
-        const ConstraintKind kind = constraint().kind;
-        if (kind == ConstraintKind::match) return add_match();
-        if (kind == ConstraintKind::seam) return add_seam();
-        if (kind == ConstraintKind::pin) return add_pin();
-        if (kind == ConstraintKind::total_area) {
-            for (std::size_t r = 0; r < domain_.regions.size(); ++r) {
-                if (names(constraint().region, domain_.regions[r]->name)) add_area(r);
-            }
-            return;
-        }
-        for (const Side& side : sides()) {
-            if (kind == ConstraintKind::straight)
-                add_straight(side);
-            else if (kind == ConstraintKind::lock && constraint().keep == Keep::edges)
-                lock_edges(side);
-            else
-                bound_length(side);
-        }
-    }
-
-    void add(std::vector<Term> terms, double least, double most, double reference, Index vertex) {
+    void add_row(std::vector<Term> terms, double least, double most, double reference,
+                 Index vertex) {
         rows_.push_back({current_, std::move(terms), least, most, reference, vertex});
     }
 
@@ -117,56 +139,40 @@ private:
         for (std::size_t i = 1; i < side.vertices.size(); ++i) {
             const auto [a, b] = std::minmax(side.vertices[i - 1], side.vertices[i]);
             const double length = domain_.distance(a, b);
-            add({{TermKind::length, 1.0, a, b}}, length, length, length, a);
+            add_row({{TermKind::length, 1.0, a, b}}, length, length, length, a);
         }
     }
 
     /// The length of a whole side: exact, or in a range.
-    void bound_length(const Side& side) {
+    void bound_length(const Side& side, double min_percent, double max_percent) {
         std::vector<Term> terms;
         const double length = add_length(side, 1.0, terms);
-        add(std::move(terms), length * (1.0 + constraint().min_percent / 100.0),
-            length * (1.0 + constraint().max_percent / 100.0), length, side.vertices.front());
-    }
-
-    void add_match() {
-        const auto both = in_domain(match_sides(domain_.regions, constraint()));
-        if (both.size() == 2) match(both[0], both[1]);  // else they are in another domain
+        add_row(std::move(terms), length * (1.0 + min_percent / 100.0),
+                length * (1.0 + max_percent / 100.0), length, side.vertices.front());
     }
 
     void match(const Side& a, const Side& b) {
         std::vector<Term> terms;
         const double length = add_length(a, 1.0, terms);
         add_length(b, -1.0, terms);
-        add(std::move(terms), 0.0, 0.0, length, a.vertices.front());
-    }
-
-    void add_seam() {
-        for (const SeamStretch& both : seam_stretches(domain_.regions, constraint().curve)) {
-            const auto side = [&](const SeamStretch::Side& s) {
-                Side result{s.vertices};
-                for (Index& v : result.vertices) v += domain_.first[s.region];
-                return result;
-            };
-            match(side(both.a), side(both.b));
-        }
+        add_row(std::move(terms), 0.0, 0.0, length, a.vertices.front());
     }
 
     /// Every three consecutive points on a line: their triangle over their distance in space.
-    void add_straight(const Side& side) {
+    void straighten(const Side& side) {
         const double chord = domain_.distance(side.vertices.front(), side.vertices.back());
         for (std::size_t i = 2; i < side.vertices.size(); ++i) {
             const Index a = side.vertices[i - 2], b = side.vertices[i - 1], c = side.vertices[i];
             const double base = domain_.distance(a, c);
             if (!(base > 0.0)) continue;  // a closed curve of two edges
-            add({{TermKind::cross, 1.0 / base, a, b},
-                 {TermKind::cross, 1.0 / base, b, c},
-                 {TermKind::cross, 1.0 / base, c, a}},
-                0.0, 0.0, std::max(chord, base), b);
+            add_row({{TermKind::cross, 1.0 / base, a, b},
+                     {TermKind::cross, 1.0 / base, b, c},
+                     {TermKind::cross, 1.0 / base, c, a}},
+                    0.0, 0.0, std::max(chord, base), b);
         }
     }
 
-    void add_area(std::size_t r) {
+    void bound_area(std::size_t r, const TotalArea& bounds) {
         const Region& region = *domain_.regions[r];
         const double area = areas_[r], size = std::sqrt(area);
         std::vector<Term> terms;
@@ -175,24 +181,17 @@ private:
                 terms.push_back({TermKind::cross, 0.5 / size, loop[i] + domain_.first[r],
                                  loop[(i + 1) % loop.size()] + domain_.first[r]});
         }
-        add(std::move(terms), area / size * (1.0 + constraint().min_percent / 100.0),
-            area / size * (1.0 + constraint().max_percent / 100.0), size,
-            region.border.front() + domain_.first[r]);
+        add_row(std::move(terms), area / size * (1.0 + bounds.min_percent / 100.0),
+                area / size * (1.0 + bounds.max_percent / 100.0), size,
+                region.border.front() + domain_.first[r]);
     }
 
-    void add_pin() {
-        for (std::size_t r = 0; r < domain_.regions.size(); ++r) {
-            const Region& region = *domain_.regions[r];
-            if (!names(constraint().region, region.name)) continue;
-            const auto& sources = region.source_vertices;
-            const auto found = std::find(sources.begin(), sources.end(), constraint().vertex);
-            if (found == sources.end()) continue;
-            const Index v = static_cast<Index>(found - sources.begin()) + domain_.first[r];
-            const double size = std::sqrt(areas_[r]);
-            for (Index axis = 0; axis < 2; ++axis) {
-                const double at = constraint().place[axis];
-                add({{TermKind::coordinate, 1.0, v, axis}}, at, at, size, v);
-            }
+    void hold(std::size_t r, const PinnedVertex& pinned) {
+        const Index v = pinned.vertex + domain_.first[r];
+        const double size = std::sqrt(areas_[r]);
+        for (Index axis = 0; axis < 2; ++axis) {
+            const double at = pinned.place[axis];
+            add_row({{TermKind::coordinate, 1.0, v, axis}}, at, at, size, v);
         }
     }
 
@@ -256,16 +255,16 @@ std::vector<std::pair<std::size_t, std::size_t>> coupled_by(
     const Constraint& constraint, const std::vector<const Region*>& regions) {
     std::vector<std::pair<std::size_t, std::size_t>> couples;
     const auto refuse = [&](const std::string& why) {
-        throw Error(ErrorCode::curve_invalid, constraint.title() + ": " + why)
+        throw Error(ErrorCode::curve_invalid, title(constraint) + ": " + why)
             .at_option(constraint.option);
     };
-    if (constraint.kind == ConstraintKind::match) {
-        const Sides sides = match_sides(regions, constraint);
+    if (const Match* match = std::get_if<Match>(&constraint.demand)) {
+        const Sides sides = match_sides(regions, *match);
         if (sides.size() != 2)
             refuse("each side must be one stretch of a curve; name the regions that they are in");
         couples.emplace_back(sides[0].first, sides[1].first);
-    } else if (constraint.kind == ConstraintKind::seam) {
-        for (const SeamStretch& both : seam_stretches(regions, constraint.curve))
+    } else if (const Seam* seam = std::get_if<Seam>(&constraint.demand)) {
+        for (const SeamStretch& both : seam_stretches(regions, seam->curve))
             couples.emplace_back(both.a.region, both.b.region);
         if (couples.empty())
             refuse(

@@ -6,16 +6,23 @@
 
 namespace lastflat {
 
+std::vector<PinnedVertex> pinned_vertices(const Region& region, const Pin& pin) {
+    std::vector<PinnedVertex> pins;
+    if (!binds(pin.region, region)) return pins;
+    for (std::size_t v = 0; v < region.source_vertices.size(); ++v) {
+        if (region.source_vertices[v] == pin.vertex)
+            pins.push_back({static_cast<Index>(v), pin.place});
+    }
+    return pins;
+}
+
 std::vector<PinnedVertex> pinned_vertices(const Region& region,
                                           const std::vector<Constraint>& constraints) {
     std::vector<PinnedVertex> pins;
     for (const Constraint& constraint : constraints) {
-        if (constraint.kind != ConstraintKind::pin) continue;
-        if (!constraint.region.empty() && constraint.region != region.name) continue;
-        for (std::size_t v = 0; v < region.source_vertices.size(); ++v) {
-            if (region.source_vertices[v] == constraint.vertex)
-                pins.push_back({static_cast<Index>(v), constraint.place});
-        }
+        const Pin* pin = std::get_if<Pin>(&constraint.demand);
+        if (pin == nullptr) continue;
+        for (const PinnedVertex& pinned : pinned_vertices(region, *pin)) pins.push_back(pinned);
     }
     return pins;
 }

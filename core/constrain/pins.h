@@ -11,6 +11,9 @@ struct PinnedVertex {
     Vec2 place;    ///< mm
 };
 
+/// The vertices of a region that a pin binds: one as a rule, several on a cut.
+[[nodiscard]] std::vector<PinnedVertex> pinned_vertices(const Region& region, const Pin& pin);
+
 /// The pins of one region.
 [[nodiscard]] std::vector<PinnedVertex> pinned_vertices(const Region& region,
                                                         const std::vector<Constraint>& constraints);

@@ -201,9 +201,9 @@ private:
         std::vector<ConflictMember> members;
         std::string names;
         for (const std::size_t c : loop.constraints) {
-            members.push_back({json_pointer(constraints_[c].option), constraints_[c].title(),
+            members.push_back({json_pointer(constraints_[c].option), title(constraints_[c]),
                                loop.gap_mm, loop.position});
-            names += (names.empty() ? "" : ", ") + constraints_[c].title();
+            names += (names.empty() ? "" : ", ") + title(constraints_[c]);
         }
         throw Error(ErrorCode::constraints_infeasible,
                     names_of(domain_) + ": " + names + " cannot all hold: " + loop.why +
@@ -239,7 +239,7 @@ private:
     /// How far a constraint is off at the best compromise, and where most.
     [[nodiscard]] ConflictMember member(std::size_t c, const std::vector<Role>& roles,
                                         const Minimum& best) const {
-        ConflictMember result{json_pointer(constraints_[c].option), constraints_[c].title(), 0.0,
+        ConflictMember result{json_pointer(constraints_[c].option), title(constraints_[c]), 0.0,
                               Vec3::Zero()};
         Eigen::Index i = 0;
         double worst = -1.0;

@@ -5,11 +5,6 @@
 
 namespace lastflat {
 
-enum class OnConflict {
-    fail,   ///< Error{constraints_infeasible}
-    relax,  ///< the least important constraint gives way, as little as it has to
-};
-
 struct ConstrainedChart {
     Minimum minimum;
     std::vector<std::size_t> relaxed;  ///< constraints that gave way

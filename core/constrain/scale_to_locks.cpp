@@ -10,7 +10,7 @@ Chart scaled_to_locks(const Region& region, Chart chart,
                       const std::vector<Constraint>& constraints) {
     std::vector<Constraint> locks;
     for (const Constraint& constraint : constraints) {
-        if (constraint.kind == ConstraintKind::lock) locks.push_back(constraint);
+        if (std::holds_alternative<Lock>(constraint.demand)) locks.push_back(constraint);
     }
     const Domain domain({&region});
     const Eigen::VectorXd x = domain.coordinates({chart});

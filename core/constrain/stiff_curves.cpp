@@ -1,6 +1,5 @@
 #include "core/constrain/stiff_curves.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -87,15 +86,8 @@ Eigen::Matrix2d angle_hessian(const Vec2& e) {
 
 StiffCurves::StiffCurves(const Domain& domain, const std::vector<Constraint>& constraints) {
     for (std::size_t r = 0; r < domain.regions.size(); ++r) {
-        for (const CurveRun& run : domain.regions[r]->runs) {
-            const bool locked =
-                std::any_of(constraints.begin(), constraints.end(), [&](const Constraint& c) {
-                    return c.kind == ConstraintKind::lock && c.keep == Keep::edges &&
-                           c.curve == run.curve &&
-                           (c.region.empty() || c.region == domain.regions[r]->name);
-                });
-            if (locked) add_run(domain, r, run);
-        }
+        for (const CurveRun* run : runs_locked_by_edges(*domain.regions[r], constraints))
+            add_run(domain, r, *run);
     }
 }
 

@@ -133,21 +133,24 @@ Index nearest_vertex(const SurfaceMesh& surface, const Vec3& position) {
 }
 
 Index chosen_piece(const SurfaceMesh& surface, const Pieces& pieces, const RegionChoice& choice) {
-    if (!choice.vertex && !choice.position) {
+    if (!choice.inside) {
         if (pieces.count == 1) return 0;
         fail_choice(choice, "the cuts leave " + std::to_string(pieces.count) +
                                 " pieces; say which is meant with \"contains\"");
     }
-    Index vertex = choice.vertex.value_or(-1);
-    if (choice.position) {
-        vertex = nearest_vertex(surface, *choice.position);
-        const double distance = (surface.position(vertex) - *choice.position).norm();
+    Index vertex = -1;
+    if (const auto* position = std::get_if<Vec3>(&*choice.inside)) {
+        vertex = nearest_vertex(surface, *position);
+        const double distance = (surface.position(vertex) - *position).norm();
         if (distance > max_choice_distance_mm) {
             fail_choice(choice, "the position is " + std::to_string(std::lround(distance)) +
                                     " mm away from the surface; are the units right?");
         }
-    } else if (!surface.is_on_surface(vertex)) {
-        fail_choice(choice, "vertex " + std::to_string(vertex) + " is not on the selected faces");
+    } else {
+        vertex = std::get<Index>(*choice.inside);
+        if (!surface.is_on_surface(vertex))
+            fail_choice(choice,
+                        "vertex " + std::to_string(vertex) + " is not on the selected faces");
     }
     const auto found =
         pieces_at(surface, pieces, surface.welded_to[static_cast<std::size_t>(vertex)]);
@@ -214,7 +217,7 @@ std::vector<Region> cut_into_regions(const SurfaceMesh& surface, const Curves& c
         }
         for (Index piece = 0; piece < pieces.count; ++piece) {
             chosen.push_back(piece);
-            choices.push_back({"region_" + std::to_string(piece + 1), {}, {}});
+            choices.push_back({"region_" + std::to_string(piece + 1)});
         }
     }
     std::vector<Region> regions;

@@ -20,8 +20,6 @@ constexpr double most_kept_curvature = std::numbers::pi / 2;
 /// an end if it is off the middle by this share of the length.
 constexpr double long_from = 1.5, off_middle = 0.05;
 
-constexpr const char* heel = "heel";
-
 double length_of(const Region& region, const std::vector<Index>& loop) {
     const auto lengths = loop_lengths(region, loop);
     return std::accumulate(lengths.begin(), lengths.end(), 0.0);
@@ -91,11 +89,11 @@ private:
         for (const CurveRun& run : region_.runs) {
             const Index from = run.vertices.front(), to = run.vertices.back();
             const bool fits = (on_hole(from) && on_outer(to)) || (on_hole(to) && on_outer(from));
-            if (run.curve != heel || !fits || !join(from, to)) continue;
+            if (run.curve != curve_name::heel || !fits || !join(from, to)) continue;
             double length = 0.0;
             for (std::size_t i = 1; i < run.vertices.size(); ++i)
                 length += region_.distance(run.vertices[i - 1], run.vertices[i]);
-            seams_.push_back({heel,
+            seams_.push_back({curve_name::heel,
                               {},
                               length,
                               region_.position(run.vertices[run.vertices.size() / 2]),

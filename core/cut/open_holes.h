@@ -4,14 +4,9 @@
 #include "core/cut/region.h"
 #include "core/locate/surface_place.h"
 #include "core/progress.h"
+#include "core/request.h"
 
 namespace lastflat {
-
-enum class HoleRule {
-    automatic,  ///< a hole that stands for much curvature is opened, any other kept
-    keep,
-    open,
-};
 
 /// A line between two border loops of a region, along which it is to be cut.
 struct HoleSeam {

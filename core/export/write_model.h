@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "core/flatten.h"
 #include "core/load/raw_mesh.h"
+#include "core/result.h"
 
 namespace lastflat {
 

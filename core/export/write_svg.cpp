@@ -233,7 +233,8 @@ std::string write_svg(const FlattenResult& result) {
         ".mark path{fill:none;stroke:#000;stroke-width:.3}</style>\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
     for (std::size_t r = 0; r < result.regions.size(); ++r) {
-        svg += piece(result.regions[r], result.sheet.placements[r], page, result.draw_fan);
+        svg += piece(result.regions[r], result.sheet.placements[r], page,
+                     result.plan.request.draw_fan);
     }
     const double y = result.sheet.height + 2.0 * margin + 8.0;
     return svg + scale_bar(y) + colour_key(y, width - margin) + "</svg>\n";

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/flatten.h"
+#include "core/result.h"
 
 namespace lastflat {
 

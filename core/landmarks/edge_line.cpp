@@ -167,16 +167,12 @@ std::pair<CurveSource, double> edge_line(const SurfaceMesh& surface,
         good += sharp[i] ? length : 0.0;
     }
     const double confidence = good / all;
-    CurveSource source{name};
-    if (confidence == 1.0) {
-        source.vertices = line;
-    } else if (confidence >= mostly_sharp) {
-        source.polyline = with_gaps_bridged(surface, faces, line, sharp);
-    } else {
-        source.polyline = points;
-        even_out(source.polyline, scale_of(faces));
-    }
-    return {source, confidence};
+    if (confidence == 1.0) return {{name, VertexPath{line}}, confidence};
+    if (confidence >= mostly_sharp)
+        return {{name, Polyline{with_gaps_bridged(surface, faces, line, sharp)}}, confidence};
+    Points3 even = points;
+    even_out(even, scale_of(faces));
+    return {{name, Polyline{std::move(even)}}, confidence};
 }
 
 }  // namespace lastflat

@@ -117,8 +117,9 @@ std::optional<Index> vertex_of_side(const SurfaceMesh& surface, const std::vecto
     constexpr std::size_t looked_at = 2000, corners = 200;
     Points3 on_curves;
     for (const CurveSource& curve : curves) {
-        const Points3 points =
-            curve.polyline.empty() ? positions_of(surface, curve.vertices) : curve.polyline;
+        const auto* path = std::get_if<VertexPath>(&curve.form);
+        const Points3 points = path != nullptr ? positions_of(surface, path->vertices)
+                                               : std::get<Polyline>(curve.form).points;
         for (std::size_t i = 0; i < points.size(); i += points.size() / corners + 1)
             on_curves.push_back(points[i]);
     }
@@ -170,7 +171,8 @@ void find_sides(const SurfaceMesh& surface, const std::vector<bool>& upper, cons
     const auto medial_vertex =
         vertex_of_side(surface, upper, found.curves, found.heel_point, medial);
     if (!lateral_vertex || !medial_vertex) fail_search("the upper has no two sides");
-    found.cut.regions = {{"lateral", lateral_vertex, {}}, {"medial", medial_vertex, {}}};
+    found.cut.regions = {{region_name::lateral, lateral_vertex},
+                         {region_name::medial, medial_vertex}};
 }
 
 /// The stretch of the upper in the plane through the heel, the toe and a third point that begins
@@ -200,10 +202,11 @@ Points3 upper_section(const SurfaceMesh& surface, const std::vector<bool>& upper
 void find_centre_line(const SurfaceMesh& surface, const std::vector<bool>& upper,
                       const Points3& topline, Landmarks& found) {
     const auto [back, front] = furthest_pair(topline, found.forward);
-    found.curves.push_back({"centre_front"});
-    found.curves.back().polyline = upper_section(surface, upper, found, front, found.toe_point);
-    found.curves.push_back({"heel"});
-    found.curves.back().polyline = upper_section(surface, upper, found, back, found.heel_point);
+    found.curves.push_back(
+        {curve_name::centre_front,
+         Polyline{upper_section(surface, upper, found, front, found.toe_point)}});
+    found.curves.push_back(
+        {curve_name::heel, Polyline{upper_section(surface, upper, found, back, found.heel_point)}});
 }
 
 void warn_if_unsure(Landmarks& found) {
@@ -241,18 +244,20 @@ Landmarks found_with(const SurfaceMesh& surface, const std::vector<BareFace>& fa
     const SoleAndTop parts = sole_and_top(surface, faces, frame);
     std::vector<bool> upper(faces.size());
     for (std::size_t f = 0; f < faces.size(); ++f) upper[f] = !parts.sole[f] && !parts.top[f];
-    const auto featherline = line_around(surface, parts.sole, "featherline");
-    const auto topline = line_around(surface, parts.top, "topline");
+    const auto featherline = line_around(surface, parts.sole, curve_name::featherline);
+    const auto topline = line_around(surface, parts.top, curve_name::topline);
     Landmarks found;
     found.curves.resize(2);
     std::tie(found.curves[0], found.featherline_confidence) =
-        edge_line(surface, faces, "featherline", featherline);
+        edge_line(surface, faces, curve_name::featherline, featherline);
     std::tie(found.curves[1], found.topline_confidence) =
-        edge_line(surface, faces, "topline", topline);
+        edge_line(surface, faces, curve_name::topline, topline);
     const SurfaceSearch search(surface);
     for (CurveSource& curve : found.curves) {
-        for (Vec3& point : curve.polyline) point = search.nearest(point).position;
-        if (!curve.polyline.empty()) curve.polyline.back() = curve.polyline.front();
+        auto* line = std::get_if<Polyline>(&curve.form);
+        if (line == nullptr) continue;
+        for (Vec3& point : line->points) point = search.nearest(point).position;
+        line->points.back() = line->points.front();
     }
     const Points3 line = positions_of(surface, featherline);
     std::tie(found.heel_point, found.toe_point) = furthest_pair(line, frame.forward);
@@ -261,7 +266,8 @@ Landmarks found_with(const SurfaceMesh& surface, const std::vector<BareFace>& fa
     check_shares(faces, parts);
     find_centre_line(surface, upper, positions_of(surface, topline), found);
     find_sides(surface, upper, line, found);
-    found.cut.cuts = {"featherline", "topline", "centre_front", "heel"};
+    found.cut.cuts = {curve_name::featherline, curve_name::topline, curve_name::centre_front,
+                      curve_name::heel};
     return found;
 }
 

@@ -6,6 +6,7 @@
 #include "core/cut/border_segments.h"
 #include "core/layout/base_line.h"
 #include "core/layout/sheet.h"
+#include "core/request.h"
 
 namespace lastflat {
 namespace {
@@ -19,12 +20,14 @@ const BorderSegment* segment_of(const std::vector<BorderSegment>& segments, cons
 
 /// The whole centre line in front, from its parts if it is given in parts.
 std::optional<BorderSegment> front_segment(const std::vector<BorderSegment>& segments) {
-    if (const auto* whole = segment_of(segments, "centre_front")) return *whole;
-    const auto* toe = segment_of(segments, "toe");
-    const auto* instep = segment_of(segments, "instep");
+    if (const auto* whole = segment_of(segments, curve_name::centre_front)) return *whole;
+    const auto* toe = segment_of(segments, curve_name::toe);
+    const auto* instep = segment_of(segments, curve_name::instep);
     if (toe == nullptr || instep == nullptr) return std::nullopt;
-    if (toe->last == instep->first) return BorderSegment{"centre_front", toe->first, instep->last};
-    if (instep->last == toe->first) return BorderSegment{"centre_front", instep->first, toe->last};
+    if (toe->last == instep->first)
+        return BorderSegment{curve_name::centre_front, toe->first, instep->last};
+    if (instep->last == toe->first)
+        return BorderSegment{curve_name::centre_front, instep->first, toe->last};
     return std::nullopt;
 }
 
@@ -84,7 +87,7 @@ Vec2 direction_of(const Vec3& axis, const std::vector<Patch>& pieces) {
 /// Heel and centre front leave two stretches of border: the featherline's is the longer one.
 std::optional<BaseLine> named_base_line(const Region& region) {
     const auto segments = border_segments(region, region.border);
-    const BorderSegment* heel = segment_of(segments, "heel");
+    const BorderSegment* heel = segment_of(segments, curve_name::heel);
     const auto front = front_segment(segments);
     if (heel == nullptr || !front) return std::nullopt;
     const auto vertex = [&](Index place) { return region.border[static_cast<std::size_t>(place)]; };

@@ -12,8 +12,9 @@ namespace {
 
 using HalfedgeHandle = OpenMesh::HalfedgeHandle;
 
-[[noreturn]] void fail_border_at(const CurveSource& source, const std::string& what) {
-    fail_curve(source.name, "border_at", std::nullopt, what, source.border_at->position);
+[[noreturn]] void fail_border_at(const std::string& curve, const std::string& what,
+                                 const std::optional<Vec3>& position = std::nullopt) {
+    fail_curve(curve, "border_at", std::nullopt, what, position);
 }
 
 double size_of(const SurfaceMesh& surface) {
@@ -25,7 +26,7 @@ double size_of(const SurfaceMesh& surface) {
 }
 
 /// The side of a border edge where there is no face, nearest to the position.
-HalfedgeHandle nearest_side(const SurfaceMesh& surface, const CurveSource& source,
+HalfedgeHandle nearest_side(const SurfaceMesh& surface, const std::string& curve,
                             const Vec3& position) {
     HalfedgeHandle best;
     double least = std::numeric_limits<double>::infinity();
@@ -39,29 +40,34 @@ HalfedgeHandle nearest_side(const SurfaceMesh& surface, const CurveSource& sourc
         least = distance;
         best = side;
     }
-    if (!best.is_valid()) fail_border_at(source, "the surface is closed and has no border");
+    if (!best.is_valid())
+        fail_border_at(curve, "the surface is closed and has no border", position);
     if (least > border_reach * size_of(surface))
-        fail_border_at(source, "the place is " + std::to_string(std::lround(least)) +
-                                   " mm away from the nearest border; are the units right?");
+        fail_border_at(curve,
+                       "the place is " + std::to_string(std::lround(least)) +
+                           " mm away from the nearest border; are the units right?",
+                       position);
     return best;
 }
 
-HalfedgeHandle side_at(const SurfaceMesh& surface, const CurveSource& source, Index id) {
+HalfedgeHandle side_at(const SurfaceMesh& surface, const std::string& curve, Index id) {
     if (!surface.is_on_surface(id))
-        fail_border_at(source, "vertex " + std::to_string(id) + " is not on the selected faces");
+        fail_border_at(curve, "vertex " + std::to_string(id) + " is not on the selected faces");
     const OpenMesh::VertexHandle vertex(surface.welded_to[static_cast<std::size_t>(id)]);
     for (const auto side : surface.mesh.voh_range(vertex)) {
         if (surface.mesh.is_boundary(side)) return side;
     }
-    fail_border_at(source, "vertex " + std::to_string(id) + " is not on the border");
+    fail_border_at(curve, "vertex " + std::to_string(id) + " is not on the border");
 }
 
 }  // namespace
 
-std::vector<Index> border_loop(const SurfaceMesh& surface, const CurveSource& source) {
-    const HalfedgeHandle start = source.border_at->vertex
-                                     ? side_at(surface, source, *source.border_at->vertex)
-                                     : nearest_side(surface, source, *source.border_at->position);
+std::vector<Index> border_loop(const SurfaceMesh& surface, const std::string& curve,
+                               const BorderAt& border) {
+    const auto* vertex = std::get_if<Index>(&border.location);
+    const HalfedgeHandle start =
+        vertex != nullptr ? side_at(surface, curve, *vertex)
+                          : nearest_side(surface, curve, std::get<Vec3>(border.location));
     std::vector<Index> loop;
     HalfedgeHandle side = start;
     do {

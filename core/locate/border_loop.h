@@ -9,9 +9,10 @@ namespace lastflat {
 /// 30 mm on a last, so that the middle of a hole means the hole.
 inline constexpr double border_reach = 0.1;
 
-/// The loop of the surface's border that passes through the source's vertex or nearest to its
-/// position. Vertices in order, the surface on their left; begins and ends at the smallest id.
-/// Throws: Error{curve_invalid} if there is none, or none near enough.
-[[nodiscard]] std::vector<Index> border_loop(const SurfaceMesh& surface, const CurveSource& source);
+/// The loop of the surface's border that passes through a vertex or nearest to a point. Vertices in
+/// order, the surface on their left; begins and ends at the smallest id. Throws:
+/// Error{curve_invalid} if there is none, or none near enough.
+[[nodiscard]] std::vector<Index> border_loop(const SurfaceMesh& surface, const std::string& curve,
+                                             const BorderAt& border);
 
 }  // namespace lastflat

@@ -21,16 +21,16 @@ std::string millimetres(double length) {
     return text.data();
 }
 
-Index located_vertex(const SurfaceMesh& surface, const CurveSource& source, std::size_t item) {
-    const Index id = source.vertices[item];
+Index located_vertex(const SurfaceMesh& surface, const std::string& curve, std::size_t item,
+                     Index id) {
     if (id < 0 || id >= static_cast<Index>(surface.welded_to.size())) {
-        fail_curve(source.name, "vertices", item,
+        fail_curve(curve, "vertices", item,
                    "vertex " + std::to_string(id) + " does not exist (the model has " +
                        std::to_string(surface.welded_to.size()) + ", counted from 0)");
     }
     const Index vertex = surface.welded_to[static_cast<std::size_t>(id)];
     if (!surface.is_on_surface(vertex)) {
-        fail_curve(source.name, "vertices", item,
+        fail_curve(curve, "vertices", item,
                    "vertex " + std::to_string(id) + " is not on the selected faces, at " +
                        place(surface.position(vertex)),
                    surface.position(vertex));
@@ -38,35 +38,36 @@ Index located_vertex(const SurfaceMesh& surface, const CurveSource& source, std:
     return vertex;
 }
 
-void check_edge(const SurfaceMesh& surface, const CurveSource& source, std::size_t item, Index a,
-                Index b) {
+/// Between an item of a path and the one before.
+void check_edge(const SurfaceMesh& surface, const std::string& curve, std::size_t item,
+                const std::vector<Index>& ids, Index a, Index b) {
     const auto edge =
         surface.mesh.find_halfedge(OpenMesh::VertexHandle(a), OpenMesh::VertexHandle(b));
     if (edge.is_valid()) return;
-    fail_curve(source.name, "vertices", item,
-               "vertices " + std::to_string(source.vertices[item - 1]) + " and " +
-                   std::to_string(source.vertices[item]) + " share no edge; they are " +
+    fail_curve(curve, "vertices", item,
+               "vertices " + std::to_string(ids[item - 1]) + " and " + std::to_string(ids[item]) +
+                   " share no edge; they are " +
                    millimetres((surface.position(a) - surface.position(b)).norm()) + " apart, at " +
                    place(surface.position(a)),
                surface.position(a));
 }
 
-std::vector<Index> vertex_path(const SurfaceMesh& surface, const CurveSource& source) {
-    if (source.vertices.size() < 2)
-        fail_curve(source.name, "vertices", 0, "a curve needs two vertices");
+std::vector<Index> vertex_path(const SurfaceMesh& surface, const std::string& curve,
+                               const std::vector<Index>& ids) {
+    if (ids.size() < 2) fail_curve(curve, "vertices", 0, "a curve needs two vertices");
     std::vector<Index> path;
     std::set<Index> seen;
-    for (std::size_t i = 0; i < source.vertices.size(); ++i) {
-        const Index vertex = located_vertex(surface, source, i);
-        const bool closes = i + 1 == source.vertices.size() && i > 2 && vertex == path.front();
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        const Index vertex = located_vertex(surface, curve, i, ids[i]);
+        const bool closes = i + 1 == ids.size() && i > 2 && vertex == path.front();
         if (!seen.insert(vertex).second && !closes) {
-            fail_curve(source.name, "vertices", i,
-                       "the curve meets itself at vertex " + std::to_string(source.vertices[i]) +
-                           ", at " + place(surface.position(vertex)),
+            fail_curve(curve, "vertices", i,
+                       "the curve meets itself at vertex " + std::to_string(ids[i]) + ", at " +
+                           place(surface.position(vertex)),
                        surface.position(vertex));
         }
         path.push_back(vertex);
-        if (i > 0) check_edge(surface, source, i, path[i - 1], path[i]);
+        if (i > 0) check_edge(surface, curve, i, ids, path[i - 1], path[i]);
     }
     return path;
 }
@@ -78,40 +79,93 @@ std::vector<SurfacePlace> places_of(const std::vector<Index>& vertices) {
     return places;
 }
 
-/// Finds what is drawn in space, and the named points.
-class Drawing {
+Points3 line_of_model(const SurfaceMesh& surface, const std::string& curve,
+                      const std::string& name) {
+    for (const ModelLine& line : surface.lines) {
+        if (std::find(line.names.begin(), line.names.end(), name) != line.names.end())
+            return line.points;
+    }
+    fail_curve(curve, "line", std::nullopt, "the model has no line named '" + name + "'");
+}
+
+bool is_drawn(const CurveForm& form) {
+    return std::holds_alternative<Polyline>(form) || std::holds_alternative<NamedLine>(form);
+}
+
+bool is_closed(const Points3& line) {
+    return line.size() > 3 && line.front() == line.back();
+}
+
+/// Finds one curve after the other.
+class Search {
 public:
-    Drawing(const SurfaceMesh& surface, const std::vector<PointSource>& points)
+    Search(const SurfaceMesh& surface, const std::vector<PointSource>& points)
         : surface_(surface), points_(points) {}
 
+    [[nodiscard]] std::vector<SurfaceLine> run(const std::vector<CurveSource>& sources) {
+        for (const CurveSource& source : sources) {
+            const double snap =
+                is_drawn(source.form) ? tolerance::drawn_snap : tolerance::geodesic_snap;
+            auto places = std::visit(
+                [&](const auto& form) { return this->places(source.name, form); }, source.form);
+            found_.push_back({source.name, std::move(places), snap});
+        }
+        return std::move(found_);
+    }
+
+private:
+    [[nodiscard]] std::vector<SurfacePlace> places(const std::string& name,
+                                                   const VertexPath& path) const {
+        return places_of(vertex_path(surface_, name, path.vertices));
+    }
+    [[nodiscard]] std::vector<SurfacePlace> places(const std::string& name,
+                                                   const GroupBorder& border) const {
+        return places_of(group_line(surface_, name, border));
+    }
+    [[nodiscard]] std::vector<SurfacePlace> places(const std::string& name,
+                                                   const BorderAt& border) const {
+        return places_of(border_loop(surface_, name, border));
+    }
+    [[nodiscard]] std::vector<SurfacePlace> places(const std::string& name,
+                                                   const ShortestPath& path) {
+        std::vector<SurfacePlace> stops;
+        for (std::size_t i = 0; i < path.through.size(); ++i) stops.push_back(named(name, path, i));
+        return shortest_paths(surface_, stops);
+    }
+    [[nodiscard]] std::vector<SurfacePlace> places(const std::string& name,
+                                                   const Polyline& polyline) {
+        return drawn(name, "polyline", polyline.points);
+    }
+    [[nodiscard]] std::vector<SurfacePlace> places(const std::string& name, const NamedLine& line) {
+        return drawn(name, "line", line_of_model(surface_, name, line.line));
+    }
+
     /// The ends are put on other lines or the border where they are near and were drawn.
-    [[nodiscard]] SurfacePlace named(const CurveSource& source, std::size_t item,
-                                     const std::vector<SurfaceLine>& others) {
-        const std::string& name = source.through[item];
+    [[nodiscard]] SurfacePlace named(const std::string& curve, const ShortestPath& path,
+                                     std::size_t item) {
+        const std::string& name = path.through[item];
+        const std::size_t last = path.through.size() - 1;
+        const auto fail = [&](const std::string& what) {
+            const std::string field = item == 0 ? "from" : item == last ? "to" : "via";
+            fail_curve(curve, field, field == "via" ? std::optional(item - 1) : std::nullopt, what);
+        };
         const auto point = std::find_if(points_.begin(), points_.end(),
                                         [&](const PointSource& p) { return p.name == name; });
-        const auto fail = [&](const std::string& what) {
-            const std::size_t last = source.through.size() - 1;
-            const std::string field = item == 0 ? "from" : item == last ? "to" : "via";
-            fail_curve(source.name, field, field == "via" ? std::optional(item - 1) : std::nullopt,
-                       what);
-        };
         if (point == points_.end()) fail("there is no point '" + name + "' in \"points\"");
-        if (!point->vertex) {
-            SurfacePlace place = on_surface(*point->position, fail);
-            if (item == 0 || item + 1 == source.through.size()) snap(place, others);
+        if (const auto* position = std::get_if<Vec3>(&point->location)) {
+            SurfacePlace place = on_surface(*position, fail);
+            if (item == 0 || item == last) snap(place);
             return place;
         }
-        if (!surface_.is_on_surface(*point->vertex))
-            fail("vertex " + std::to_string(*point->vertex) + " is not on the selected faces");
-        return SurfacePlace::at_vertex(
-            surface_.welded_to[static_cast<std::size_t>(*point->vertex)]);
+        const Index vertex = std::get<Index>(point->location);
+        if (!surface_.is_on_surface(vertex))
+            fail("vertex " + std::to_string(vertex) + " is not on the selected faces");
+        return SurfacePlace::at_vertex(surface_.welded_to[static_cast<std::size_t>(vertex)]);
     }
 
     /// The polyline on the surface, its ends on other lines or the border where they are near.
     [[nodiscard]] std::vector<SurfacePlace> drawn(const std::string& name, const std::string& field,
-                                                  const Points3& polyline,
-                                                  const std::vector<SurfaceLine>& others) {
+                                                  const Points3& polyline) {
         std::vector<SurfacePlace> stops;
         for (std::size_t i = 0; i < polyline.size(); ++i) {
             stops.push_back(on_surface(polyline[i], [&](const std::string& what) {
@@ -119,10 +173,9 @@ public:
             }));
         }
         if (stops.size() < 2) fail_curve(name, field, 0, "a curve needs two points");
-        const bool closed = polyline.size() > 3 && polyline.front() == polyline.back();
-        if (!closed) {
-            snap(stops.front(), others);
-            snap(stops.back(), others);
+        if (!is_closed(polyline)) {
+            snap(stops.front());
+            snap(stops.back());
         }
         std::vector<SurfacePlace> line{stops.front()};
         for (std::size_t i = 1; i < stops.size(); ++i) {
@@ -138,7 +191,6 @@ public:
         return line;
     }
 
-private:
     const SurfaceSearch& search() {
         if (!search_) search_.emplace(surface_);
         return *search_;
@@ -155,7 +207,7 @@ private:
         return nearest.place;
     }
 
-    void snap(SurfacePlace& end, const std::vector<SurfaceLine>& others) {
+    void snap(SurfacePlace& end) {
         const Vec3 at = position_of(surface_, end);
         SurfacePlace best = end;
         double least = drawn_end_reach * search().size();
@@ -168,7 +220,7 @@ private:
             least = distance;
             best = share == 0.0 ? a : share == 1.0 ? b : between(a, b, share);
         };
-        for (const SurfaceLine& line : others) {
+        for (const SurfaceLine& line : found_) {
             for (std::size_t i = 1; i < line.places.size(); ++i)
                 consider(line.places[i - 1], line.places[i]);
         }
@@ -184,59 +236,22 @@ private:
     const SurfaceMesh& surface_;
     const std::vector<PointSource>& points_;
     std::optional<SurfaceSearch> search_;
+    std::vector<SurfaceLine> found_;
 };
 
-Points3 line_of_model(const SurfaceMesh& surface, const CurveSource& source) {
-    for (const ModelLine& line : surface.lines) {
-        if (std::find(line.names.begin(), line.names.end(), source.line) != line.names.end())
-            return line.points;
-    }
-    fail_curve(source.name, "line", std::nullopt,
-               "the model has no line named '" + source.line + "'");
-}
-
-/// What ends on others comes after them.
-int rank(const CurveSource& source) {
-    if (!source.polyline.empty() || !source.line.empty()) return 2;
-    return source.through.empty() ? 0 : 1;
-}
-
 }  // namespace
+
+int turn(const CurveForm& form) {
+    if (std::holds_alternative<ShortestPath>(form)) return 1;
+    const auto* polyline = std::get_if<Polyline>(&form);
+    const bool ends = is_drawn(form) && (polyline == nullptr || !is_closed(polyline->points));
+    return ends ? 2 : 0;
+}
 
 std::vector<SurfaceLine> locate_curves(const SurfaceMesh& surface,
                                        const std::vector<CurveSource>& sources,
                                        const std::vector<PointSource>& points) {
-    Drawing drawing(surface, points);
-    std::vector<SurfaceLine> lines(sources.size());
-    std::vector<SurfaceLine> known;
-    for (const int turn : {0, 1, 2}) {
-        for (std::size_t i = 0; i < sources.size(); ++i) {
-            const CurveSource& source = sources[i];
-            if (rank(source) != turn) continue;
-            SurfaceLine& line = lines[i];
-            line.name = source.name;
-            line.snap = turn < 2 ? tolerance::geodesic_snap : tolerance::drawn_snap;
-            if (!source.polyline.empty()) {
-                line.places = drawing.drawn(source.name, "polyline", source.polyline, known);
-            } else if (!source.line.empty()) {
-                line.places =
-                    drawing.drawn(source.name, "line", line_of_model(surface, source), known);
-            } else if (!source.through.empty()) {
-                std::vector<SurfacePlace> stops;
-                for (std::size_t k = 0; k < source.through.size(); ++k)
-                    stops.push_back(drawing.named(source, k, known));
-                line.places = shortest_paths(surface, stops);
-            } else if (!source.border_of.empty()) {
-                line.places = places_of(group_line(surface, source));
-            } else if (source.border_at) {
-                line.places = places_of(border_loop(surface, source));
-            } else {
-                line.places = places_of(vertex_path(surface, source));
-            }
-            known.push_back(line);
-        }
-    }
-    return lines;
+    return Search(surface, points).run(sources);
 }
 
 }  // namespace lastflat

@@ -1,31 +1,13 @@
 // Named curves on the surface.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/locate/surface_place.h"
+#include "core/request.h"
 
 namespace lastflat {
-
-/// A named place: a vertex of the file, or a point near the surface.
-struct PointSource {
-    std::string name;
-    std::optional<Index> vertex;
-    std::optional<Vec3> position;  ///< mm
-};
-
-/// What the request says of a curve: one of the six.
-struct CurveSource {
-    std::string name;
-    std::vector<Index> vertices{};           ///< ids of the file; consecutive ones share an edge
-    Points3 polyline{};                      ///< in space near the surface, mm
-    std::vector<std::string> through{};      ///< named points, joined by shortest paths
-    std::vector<std::string> border_of{};    ///< one group: its border; two: where they meet
-    std::string line{};                      ///< a line of the model, by name
-    std::optional<PointSource> border_at{};  ///< the border loop at this place
-};
 
 /// A line on the surface: one triangle holds each two consecutive places. Closed if the first place
 /// is also the last.
@@ -40,11 +22,16 @@ struct SurfaceLine {
 /// and 1.2 mm on a last.
 inline constexpr double drawn_reach = 0.02, drawn_end_reach = 0.004;
 
-/// Finds every curve on the surface, in the order of the sources. Shortest paths are exact. The
-/// ends of shortest paths and polylines that were given in space are put on the border or another
-/// curve within `drawn_end_reach`: vertex paths and groups' lines count first, then shortest paths,
-/// then what is drawn, each in its order.
+/// Which forms are located before which, the smallest first: what ends on others comes after them.
+/// Vertex paths, groups' lines, border loops and closed drawn lines, then shortest paths, then open
+/// drawn lines.
+[[nodiscard]] int turn(const CurveForm& form);
+
+/// Finds every curve on the surface, one after the other. Shortest paths are exact. The ends of
+/// shortest paths and polylines that were given in space are put on the border or an earlier curve
+/// within `drawn_end_reach`.
 ///
+/// In:     sources in the order of their turns.
 /// Throws: Error{curve_invalid} naming the curve, the item and the place, if an id does not exist
 ///         or is not on the selected faces, if two consecutive vertices share no edge, if a path
 ///         meets itself other than by closing, if a point is too far from the surface or names

@@ -11,38 +11,39 @@ namespace {
 
 using Edge = std::pair<Index, Index>;
 
-[[noreturn]] void fail_border_of(const CurveSource& source, const std::string& what,
+[[noreturn]] void fail_border_of(const std::string& curve, const std::string& what,
                                  const std::optional<Vec3>& position = std::nullopt) {
-    fail_curve(source.name, "border_of", std::nullopt, what, position);
+    fail_curve(curve, "border_of", std::nullopt, what, position);
 }
 
 /// Per label set, whether it has the group's name.
-std::vector<bool> labels_of(const SurfaceMesh& surface, const CurveSource& source,
-                            std::size_t item) {
+std::vector<bool> labels_of(const SurfaceMesh& surface, const std::string& curve,
+                            const GroupBorder& border, std::size_t item) {
+    const std::string& group = border.groups[item];
     std::vector<bool> has;
     for (const auto& names : surface.label_sets) {
-        has.push_back(std::find(names.begin(), names.end(), source.border_of[item]) != names.end());
+        has.push_back(std::find(names.begin(), names.end(), group) != names.end());
     }
     if (std::find(has.begin(), has.end(), true) == has.end()) {
-        throw Error(
-            ErrorCode::group_not_found,
-            "curve '" + source.name + "': the model has no group '" + source.border_of[item] + "'")
-            .at_option({"curves", source.name, "border_of", "groups", std::to_string(item)});
+        throw Error(ErrorCode::group_not_found,
+                    "curve '" + curve + "': the model has no group '" + group + "'")
+            .at_option({"curves", curve, "border_of", "groups", std::to_string(item)});
     }
     return has;
 }
 
-std::vector<Edge> edges_between(const SurfaceMesh& surface, const CurveSource& source) {
-    const std::vector<bool> first = labels_of(surface, source, 0);
+std::vector<Edge> edges_between(const SurfaceMesh& surface, const std::string& curve,
+                                const GroupBorder& border) {
+    const std::vector<bool> first = labels_of(surface, curve, border, 0);
     std::vector<bool> second(first.size());
-    if (source.border_of.size() > 1)
-        second = labels_of(surface, source, 1);
+    if (border.groups.size() > 1)
+        second = labels_of(surface, curve, border, 1);
     else
         std::transform(first.begin(), first.end(), second.begin(), [](bool b) { return !b; });
     const auto is = [](const std::vector<bool>& has, std::optional<std::uint32_t> label) {
         return label && has[*label];
     };
-    const bool alone = source.border_of.size() == 1;
+    const bool alone = border.groups.size() == 1;
     std::vector<Edge> edges;
     for (const auto edge : surface.mesh.edges()) {
         const auto h = surface.mesh.halfedge_handle(edge, 0);
@@ -59,20 +60,20 @@ std::vector<Edge> edges_between(const SurfaceMesh& surface, const CurveSource& s
 
 }  // namespace
 
-std::vector<Index> group_line(const SurfaceMesh& surface, const CurveSource& source) {
+std::vector<Index> group_line(const SurfaceMesh& surface, const std::string& curve,
+                              const GroupBorder& border) {
     std::map<Index, std::vector<Index>> neighbours;
-    for (const auto& [a, b] : edges_between(surface, source)) {
+    for (const auto& [a, b] : edges_between(surface, curve, border)) {
         neighbours[a].push_back(b);
         neighbours[b].push_back(a);
     }
-    if (neighbours.empty()) fail_border_of(source, "the groups do not meet along any edge");
+    if (neighbours.empty()) fail_border_of(curve, "the groups do not meet along any edge");
     Index begin = neighbours.begin()->first;
     for (auto& [vertex, next] : neighbours) {
         std::sort(next.begin(), next.end());
         if (next.size() > 2)
             fail_border_of(
-                source,
-                "the line between the groups branches at " + place(surface.position(vertex)),
+                curve, "the line between the groups branches at " + place(surface.position(vertex)),
                 surface.position(vertex));
         if (next.size() == 1 && neighbours.at(begin).size() != 1) begin = vertex;
     }
@@ -91,7 +92,7 @@ std::vector<Index> group_line(const SurfaceMesh& surface, const CurveSource& sou
     if (seen.size() < neighbours.size()) {
         const auto other = std::find_if(neighbours.begin(), neighbours.end(),
                                         [&](const auto& n) { return !seen.contains(n.first); });
-        fail_border_of(source,
+        fail_border_of(curve,
                        "the groups meet along more than one line; another is at " +
                            place(surface.position(other->first)),
                        surface.position(other->first));

@@ -9,6 +9,7 @@ namespace lastflat {
 /// meet. Vertices in order; closed lines begin and end at their smallest id.
 /// Throws: Error{group_not_found}; Error{curve_invalid} if there is no such line, more than one, or
 ///         if it branches.
-[[nodiscard]] std::vector<Index> group_line(const SurfaceMesh& surface, const CurveSource& source);
+[[nodiscard]] std::vector<Index> group_line(const SurfaceMesh& surface, const std::string& curve,
+                                            const GroupBorder& border);
 
 }  // namespace lastflat

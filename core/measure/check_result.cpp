@@ -1,5 +1,7 @@
 #include "core/measure/check_result.h"
 
+#include "core/constrain/constraint.h"
+
 namespace lastflat {
 namespace {
 
@@ -53,7 +55,7 @@ void check_constraints_kept(const std::vector<ConstraintReport>& reports,
     for (const ConstraintReport& report : reports) {
         if (report.kept) continue;
         const Constraint& constraint = constraints[report.constraint];
-        const std::string what = "region '" + report.region + "': " + constraint.title() +
+        const std::string what = "region '" + report.region + "': " + title(constraint) +
                                  " is off by " + std::to_string(report.residual_mm) + " mm at " +
                                  place(report.position);
         if (!report.relaxed) {

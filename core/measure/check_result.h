@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/measure/report.h"
-#include "core/parameterize/method.h"
+#include "core/request.h"
 
 namespace lastflat {
 

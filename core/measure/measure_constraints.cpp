@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/constrain/pins.h"
 #include "core/cut/seam_stretches.h"
 #include "core/measure/report.h"
 #include "core/numerics/polygon.h"
@@ -10,29 +11,65 @@
 namespace lastflat {
 namespace {
 
-/// One constraint on one region, or on two.
+/// What a constraint came to wherever it binds; one overload for each kind.
 class ConstraintMeter {
 public:
     ConstraintMeter(const std::vector<Region>& regions, const std::vector<Chart>& charts)
         : regions_(regions), charts_(charts) {}
 
-    std::vector<ConstraintReport> measure(const Constraint& constraint) {
-        std::vector<ConstraintReport> reports;
-        if (constraint.kind == ConstraintKind::match) return {match(constraint)};
-        if (constraint.kind == ConstraintKind::seam) return seam(constraint);
+    using Reports = std::vector<ConstraintReport>;
+
+    Reports operator()(const Lock& lock) const {
+        return on_runs(lock, [&](std::size_t r, const CurveRun& run) {
+            ConstraintReport report = ranged(r, run, 0.0, 0.0);
+            if (lock.keep == Keep::edges) worst_edge(r, run, report);
+            return report;
+        });
+    }
+
+    Reports operator()(const Range& range) const {
+        return on_runs(range, [&](std::size_t r, const CurveRun& run) {
+            return ranged(r, run, range.min_percent, range.max_percent);
+        });
+    }
+
+    Reports operator()(const Straight& asked) const {
+        return on_runs(asked, [&](std::size_t r, const CurveRun& run) { return straight(r, run); });
+    }
+
+    Reports operator()(const TotalArea& asked) const {
+        Reports reports;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
-            if (!constraint.region.empty() && constraint.region != regions_[r].name) continue;
-            if (constraint.kind == ConstraintKind::total_area) {
-                reports.push_back(area(constraint, r));
-            } else if (constraint.kind == ConstraintKind::pin) {
-                for (const PinnedVertex& p : pinned_vertices(regions_[r], {constraint}))
-                    reports.push_back(pin(r, p));
-            } else {
-                for (const CurveRun& run : regions_[r].runs) {
-                    if (run.curve == constraint.curve) reports.push_back(curve(constraint, r, run));
-                }
-            }
+            if (binds(asked.region, regions_[r])) reports.push_back(area(asked, r));
         }
+        return reports;
+    }
+
+    Reports operator()(const Pin& asked) const {
+        Reports reports;
+        for (std::size_t r = 0; r < regions_.size(); ++r) {
+            for (const PinnedVertex& p : pinned_vertices(regions_[r], asked))
+                reports.push_back(pin(r, p));
+        }
+        return reports;
+    }
+
+    Reports operator()(const Match& asked) const {
+        Sides sides = runs_of(asked.curve, asked.region);
+        if (sides.size() < 2) {
+            for (const auto& side : runs_of(asked.with_curve, asked.with_region))
+                sides.push_back(side);
+        }
+        return {equal({sides[0].first, sides[0].second->vertices},
+                      {sides[1].first, sides[1].second->vertices})};
+    }
+
+    Reports operator()(const Seam& asked) const {
+        std::vector<const Region*> all;
+        for (const Region& region : regions_) all.push_back(&region);
+        Reports reports;
+        for (const SeamStretch& both : seam_stretches(all, asked.curve))
+            reports.push_back(equal(both.a, both.b));
         return reports;
     }
 
@@ -64,23 +101,37 @@ private:
         return report;
     }
 
-    [[nodiscard]] ConstraintReport curve(const Constraint& constraint, std::size_t r,
-                                         const CurveRun& run) const {
-        const Lengths sum = lengths(r, run.vertices);
-        ConstraintReport report{};
-        if (constraint.kind == ConstraintKind::straight) {
-            report = straight(r, run);
-        } else if (constraint.kind == ConstraintKind::range) {
-            report = bounded(sum.in_space * (1.0 + constraint.min_percent / 100.0),
-                             sum.in_space * (1.0 + constraint.max_percent / 100.0), sum.flat,
-                             sum.in_space);
-            report.position = regions_[r].position(run.vertices.front());
-        } else {
-            report = bounded(sum.in_space, sum.in_space, sum.flat, sum.in_space);
-            report.position = regions_[r].position(run.vertices.front());
-            if (constraint.keep == Keep::edges) worst_edge(r, run, report);
+    using Sides = std::vector<std::pair<std::size_t, const CurveRun*>>;
+
+    [[nodiscard]] Sides runs_of(const std::string& curve, const std::string& region) const {
+        Sides sides;
+        for (std::size_t r = 0; r < regions_.size(); ++r) {
+            if (!binds(region, regions_[r])) continue;
+            for (const CurveRun& run : regions_[r].runs) {
+                if (run.curve == curve) sides.emplace_back(r, &run);
+            }
         }
-        report.region = regions_[r].name;
+        return sides;
+    }
+
+    template <class OfCurve, class MeasureRun>
+    [[nodiscard]] Reports on_runs(const OfCurve& asked, const MeasureRun& measure_run) const {
+        Reports reports;
+        for (const auto& [r, run] : runs_of(asked.curve, asked.region)) {
+            reports.push_back(measure_run(r, *run));
+            reports.back().region = regions_[r].name;
+        }
+        return reports;
+    }
+
+    /// The length of a whole run.
+    [[nodiscard]] ConstraintReport ranged(std::size_t r, const CurveRun& run, double min_percent,
+                                          double max_percent) const {
+        const Lengths sum = lengths(r, run.vertices);
+        ConstraintReport report =
+            bounded(sum.in_space * (1.0 + min_percent / 100.0),
+                    sum.in_space * (1.0 + max_percent / 100.0), sum.flat, sum.in_space);
+        report.position = regions_[r].position(run.vertices.front());
         return report;
     }
 
@@ -114,12 +165,12 @@ private:
         return report;
     }
 
-    [[nodiscard]] ConstraintReport area(const Constraint& constraint, std::size_t r) const {
+    [[nodiscard]] ConstraintReport area(const TotalArea& asked, std::size_t r) const {
         const double on_last = surface_area(regions_[r]);
         const double in_flat = flat_area(regions_[r], charts_[r].uv), size = std::sqrt(on_last);
         ConstraintReport report =
-            bounded(on_last * (1.0 + constraint.min_percent / 100.0),
-                    on_last * (1.0 + constraint.max_percent / 100.0), in_flat, on_last);
+            bounded(on_last * (1.0 + asked.min_percent / 100.0),
+                    on_last * (1.0 + asked.max_percent / 100.0), in_flat, on_last);
         report.residual_mm /= size;
         report.region = regions_[r].name;
         report.position = regions_[r].position(regions_[r].border.front());
@@ -132,31 +183,6 @@ private:
         report.region = regions_[r].name;
         report.position = regions_[r].position(pinned.vertex);
         return report;
-    }
-
-    [[nodiscard]] ConstraintReport match(const Constraint& constraint) const {
-        std::vector<std::pair<std::size_t, const CurveRun*>> sides;
-        const auto add = [&](const std::string& curve, const std::string& region) {
-            for (std::size_t r = 0; r < regions_.size(); ++r) {
-                if (!region.empty() && region != regions_[r].name) continue;
-                for (const CurveRun& run : regions_[r].runs) {
-                    if (run.curve == curve) sides.emplace_back(r, &run);
-                }
-            }
-        };
-        add(constraint.curve, constraint.region);
-        if (sides.size() < 2) add(constraint.with_curve, constraint.with_region);
-        return equal({sides[0].first, sides[0].second->vertices},
-                     {sides[1].first, sides[1].second->vertices});
-    }
-
-    [[nodiscard]] std::vector<ConstraintReport> seam(const Constraint& constraint) const {
-        std::vector<const Region*> all;
-        for (const Region& region : regions_) all.push_back(&region);
-        std::vector<ConstraintReport> reports;
-        for (const SeamStretch& both : seam_stretches(all, constraint.curve))
-            reports.push_back(equal(both.a, both.b));
-        return reports;
     }
 
     [[nodiscard]] ConstraintReport equal(const SeamStretch::Side& one,
@@ -179,9 +205,9 @@ std::vector<ConstraintReport> measure_constraints(const std::vector<Region>& reg
                                                   const std::vector<Chart>& charts,
                                                   const std::vector<Constraint>& constraints) {
     std::vector<ConstraintReport> reports;
-    ConstraintMeter meter(regions, charts);
+    const ConstraintMeter meter(regions, charts);
     for (std::size_t c = 0; c < constraints.size(); ++c) {
-        for (ConstraintReport& report : meter.measure(constraints[c])) {
+        for (ConstraintReport& report : std::visit(meter, constraints[c].demand)) {
             report.constraint = c;
             reports.push_back(std::move(report));
         }

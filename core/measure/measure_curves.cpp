@@ -4,6 +4,7 @@
 #include "core/cut/seam_stretches.h"
 #include "core/measure/report.h"
 #include "core/numerics/tolerances.h"
+#include "core/request.h"
 
 namespace lastflat {
 namespace {
@@ -34,25 +35,26 @@ Verdict graded(double value, double pass, double warn) {
 
 /// Locked: kept or not. The topline gapes by millimetres; every other edge is lasted and may be
 /// pleated by a share of its length.
-Verdict verdict_on(const std::string& curve, const Constraint* lock, const Lengths& lengths) {
+Verdict verdict_on(const std::string& curve, const Lock* lock, const Lengths& lengths) {
     const double error = std::abs(lengths.flat - lengths.in_space);
     if (lock != nullptr) {
         const double relative =
             lock->keep == Keep::edges ? lengths.worst_edge_relative : error / lengths.in_space;
         return relative <= tolerance::locked_length ? Verdict::pass : Verdict::fail;
     }
-    if (curve == "topline") return graded(error, 0.5, 1.5);
+    if (curve == curve_name::topline) return graded(error, 0.5, 1.5);
     return graded(error / lengths.in_space, 0.01, 0.02);
 }
 
-const Constraint* lock_on(const std::string& curve, const std::string& region,
-                          const std::vector<Constraint>& constraints) {
-    const auto found =
-        std::find_if(constraints.begin(), constraints.end(), [&](const Constraint& c) {
-            return c.kind == ConstraintKind::lock && c.curve == curve &&
-                   (c.region.empty() || c.region == region);
-        });
-    return found == constraints.end() ? nullptr : &*found;
+const Lock* lock_on(const std::string& curve, const std::string& region,
+                    const std::vector<Constraint>& constraints) {
+    for (const Constraint& constraint : constraints) {
+        const Lock* lock = std::get_if<Lock>(&constraint.demand);
+        if (lock != nullptr && lock->curve == curve &&
+            (lock->region.empty() || lock->region == region))
+            return lock;
+    }
+    return nullptr;
 }
 
 }  // namespace
@@ -62,7 +64,7 @@ std::vector<CurveReport> measure_curves(const Region& region, const Points2& uv,
     std::vector<CurveReport> reports;
     for (const CurveRun& run : region.runs) {
         const Lengths lengths = lengths_of(region, uv, run.vertices);
-        const Constraint* lock = lock_on(run.curve, region.name, constraints);
+        const Lock* lock = lock_on(run.curve, region.name, constraints);
         reports.push_back({run.curve, lock != nullptr, lengths.in_space, lengths.flat,
                            lengths.flat - lengths.in_space, lengths.worst_edge,
                            verdict_on(run.curve, lock, lengths)});

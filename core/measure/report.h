@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/constrain/constraint.h"
-#include "core/constrain/pins.h"
 #include "core/parameterize/chart.h"
+#include "core/request.h"
 
 namespace lastflat {
 
@@ -65,11 +64,6 @@ struct StretchPercentiles {
 struct WorstPlace {
     Vec3 position;  ///< on the last, mm
     double larger_percent, smaller_percent;
-};
-
-/// What the leather will bear.
-struct MaterialLimits {
-    double stretch_max_percent, compress_max_percent;
 };
 
 /// What happens to the leather when the flat piece is lasted: along its two principal directions it

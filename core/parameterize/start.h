@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/parameterize/chart.h"
-#include "core/parameterize/method.h"
+#include "core/request.h"
 
 namespace lastflat {
 

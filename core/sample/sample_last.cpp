@@ -210,10 +210,10 @@ SampleLast make_sample_last(const SampleLastOptions& options) {
     add_upper(last.mesh, shape);
     add_grid(last.mesh, 0, shape.sole_rounding(), sole_label);
     add_grid(last.mesh, rows, 0.0, top_label);
-    last.curves = {{"centre_front", column_path(front_column)},
-                   {"heel", column_path(0)},
-                   {"featherline", ring_path(0)},
-                   {"topline", ring_path(rows)}};
+    last.curves = {{curve_name::centre_front, column_path(front_column)},
+                   {curve_name::heel, column_path(0)},
+                   {curve_name::featherline, ring_path(0)},
+                   {curve_name::topline, ring_path(rows)}};
     last.lateral_vertex = upper_vertex(rows / 2, columns / 4);
     last.medial_vertex = upper_vertex(rows / 2, columns - columns / 4);
     return last;

@@ -7,6 +7,7 @@
 
 #include "core/load/raw_mesh.h"
 #include "core/numerics/types.h"
+#include "core/request.h"
 
 namespace lastflat {
 

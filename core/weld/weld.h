@@ -2,21 +2,10 @@
 #pragma once
 
 #include "core/load/raw_mesh.h"
+#include "core/request.h"
 #include "core/weld/surface_mesh.h"
 
 namespace lastflat {
-
-struct WeldOptions {
-    std::optional<double> unit_mm;    ///< one unit of the model in mm; default: the format's
-    std::vector<std::string> groups;  ///< faces that carry one of these names; empty: all faces
-    /// Vertices at most this far apart become one. Default: those of the same place, within
-    /// `same_place` of the model's size, and only in models without indices, so that a slit stays
-    /// a slit.
-    std::optional<double> tolerance_mm;
-    /// Borders at most this far apart are stitched together; 0: none. Default: `near_border` of the
-    /// model's size, and only if this closes a model that comes in several pieces.
-    std::optional<double> stitch_mm;
-};
 
 inline constexpr double same_place = 1e-6, near_border = 2e-3;
 

@@ -11,7 +11,6 @@
 #include "server/worker/map_job.h"
 #include "server/worker/problem_map.h"
 #include "server/worker/run_job.h"
-#include "server/worker/translate.h"
 
 namespace lastflat::server {
 namespace {
@@ -98,8 +97,9 @@ std::optional<api::Problem> read_input(const fs::path& model,
     std::optional<std::string> constraints = request ? file_bytes(*request) : std::string();
     if (!constraints) return file_problem(404, "cannot read the request " + request->string());
     try {
-        const auto wire = api::flatten_request_from_json(*constraints);
-        input = JobInput{std::move(*bytes), to_options(wire)};
+        FlattenOptions options;
+        options.request = api::flatten_request_from_json(*constraints).asked;
+        input = JobInput{std::move(*bytes), std::move(options)};
     } catch (const api::InvalidRequest& error) {
         return problem_of(error);
     } catch (const Error& error) {

@@ -9,7 +9,6 @@
 #include "server/routes/side_files.h"
 #include "server/support/duration.h"
 #include "server/webhooks/post_message.h"
-#include "server/worker/translate.h"
 
 namespace lastflat::server {
 namespace {
@@ -20,7 +19,6 @@ constexpr std::size_t longest_key = 255;
 Submission checked(Submission submission, const api::FlattenRequest& request) {
     if (submission.model.empty() && submission.asset.empty())
         refuse(422, "model_missing", "the model is empty (0 bytes)");
-    (void)to_options(request);
     submission.tag = request.tag;
     return submission;
 }

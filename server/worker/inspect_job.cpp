@@ -2,11 +2,10 @@
 
 #include <numbers>
 
+#include "api/json.h"
 #include "api/problem_json.h"
-#include "api/report_json.h"
 #include "core/inspect.h"
 #include "server/worker/problem_map.h"
-#include "server/worker/translate.h"
 
 namespace lastflat::server {
 namespace {
@@ -59,8 +58,8 @@ Json report_json(const Inspection& found) {
                   {"size_mm", position_json(found.size_mm)}}},
                 {"regions", std::move(regions)},
                 {"warnings", std::move(warnings)},
-                {"repairs", api::repairs_json(to_wire(found.repairs))}};
-    if (found.landmarks) report["found"] = api::found_json(to_wire(*found.landmarks));
+                {"repairs", api::json_of(found.repairs)}};
+    if (found.plan.landmarks) report["found"] = api::json_of(found.plan);
     if (found.fault) report["problem"] = api::problem_json(problem_of(*found.fault));
     return report;
 }

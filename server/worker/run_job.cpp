@@ -3,11 +3,12 @@
 #include <future>
 #include <new>
 
+#include "api/flatten_result.h"
 #include "core/export/write_model.h"
 #include "core/export/write_svg.h"
+#include "server/support/version.h"
 #include "server/worker/gzip.h"
 #include "server/worker/problem_map.h"
-#include "server/worker/translate.h"
 
 namespace lastflat::server {
 
@@ -24,13 +25,12 @@ std::unique_ptr<const JobOutput> render(const FlattenResult& result, Compression
     const auto begin = [&](auto write) {
         return std::async(std::launch::async, [=] { return rendered(write(), compression); });
     };
-    const api::FlattenResult wire = to_wire(result);
     auto obj = begin([&] { return write_flat_obj(result); });
     auto svg = begin([&] { return write_svg(result); });
     auto glb = begin([&] { return write_flat_glb(result); });
     auto output = std::make_unique<JobOutput>();
-    output->json = rendered(api::to_json(wire), compression);
-    output->metrics = rendered(api::metrics_json(wire), compression);
+    output->json = rendered(api::to_json(result, version), compression);
+    output->metrics = rendered(api::metrics_json(result, version), compression);
     output->svg = svg.get();
     output->obj = obj.get();
     output->glb = glb.get();

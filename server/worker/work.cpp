@@ -20,7 +20,6 @@
 #include "server/worker/inspect_job.h"
 #include "server/worker/map_job.h"
 #include "server/worker/problem_map.h"
-#include "server/worker/translate.h"
 
 namespace lastflat::server {
 namespace {
@@ -90,7 +89,7 @@ void work(const WorkOrder& order) {
     JobInput input;
     try {
         if (order.task == Task::map) return say(map_job(read_model(order), order.request));
-        input.options = to_options(api::flatten_request_from_json(order.request));
+        input.options.request = api::flatten_request_from_json(order.request).asked;
         input.options.threads = static_cast<std::size_t>(order.threads);
         input.model = read_model(order);
     } catch (const api::InvalidRequest& error) {

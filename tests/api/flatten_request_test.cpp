@@ -2,8 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 #include "api/job.h"
 #include "api/object_reader.h"
+#include "api/request_json.h"
 
 namespace lastflat::api {
 namespace {
@@ -26,81 +29,117 @@ std::string detail_of(const std::string& text) {
     return "accepted";
 }
 
+constexpr const char* everything = R"({
+    "units": "in", "surface": {"groups": ["upper"]}, "weld": {"tolerance_mm": 0.01},
+    "points": {"toe_point": {"vertex": 80}, "vamp_point": {"position": [180, 3, 60]}},
+    "curves": {"centre_front": {"vertices": [80, 240]}, "heel": {"polyline": [[0,0,0],[1,0,9]]},
+               "topline": {"from": "a", "to": "b", "via": ["c"]},
+               "featherline": {"border_of": {"groups": ["upper", "sole"]}},
+               "stitches": {"line": "by hand"}, "vent": {"border_at": {"position": [1, 2, 3]}}},
+    "cuts": ["centre_front", "heel"], "seams": ["dart"], "holes": "keep",
+    "regions": {"exterior": {"contains": {"vertex": 5200}}, "interior": {}},
+    "locks": [{"curve": "centre_front"}, {"curve": "topline", "keep": "total"}],
+    "constraints": [{"kind": "range", "curve": "featherline", "min_percent": -1},
+                    {"kind": "match", "curve": "heel", "region": "exterior"},
+                    {"kind": "pin", "point": "toe_point", "at_mm": [1, 2], "priority": 7},
+                    {"kind": "total_area"}],
+    "on_conflict": "relax",
+    "material": {"stretch_max_percent": 5, "compress_max_percent": 2},
+    "method": {"name": "geodesic_fan", "angles": "averaged_conformal"},
+    "layout": {"arrangement": "pair"}, "draw": ["fan"], "tag": "order-4711"})";
+
+constexpr const char* weighed = R"({
+    "points": {"toe_point": {"vertex": 80}},
+    "weights": {"compression": 4, "zones": [
+        {"point": "toe_point", "within_mm": 9, "weight": 3},
+        {"curve": "heel", "within_mm": 5, "weight": 0.5},
+        {"vertices": [1, 2, 3], "weight": 2}]}})";
+
 }  // namespace
 
 TEST_SUITE("api/flatten_request") {
     TEST_CASE("nothing at all is every default") {
         for (const char* text : {"", " \n", "{}"}) {
-            const FlattenRequest request = flatten_request_from_json(text);
-            CHECK(request.curves.empty());
-            CHECK_FALSE(request.units.has_value());
-            CHECK(request.method.name == Method::isometric);
+            const Request asked = flatten_request_from_json(text).asked;
+            CHECK(asked.curves.empty());
+            CHECK_FALSE(asked.weld.unit_mm.has_value());
+            CHECK(asked.method.name == MethodName::isometric);
+            CHECK(request_json(asked).dump() == "{}");
         }
     }
 
     TEST_CASE("every part of the contract is read") {
-        const FlattenRequest request = flatten_request_from_json(R"({
-            "units": "in", "surface": {"groups": ["upper"]}, "weld": {"tolerance_mm": 0.01},
-            "points": {"toe_point": {"vertex": 80}, "vamp_point": {"position": [180, 3, 60]}},
-            "curves": {"centre_front": {"vertices": [80, 240]}, "heel": {"polyline": [[0,0,0],[1,0,9]]},
-                       "topline": {"from": "a", "to": "b", "via": ["c"]},
-                       "featherline": {"border_of": {"groups": ["upper", "sole"]}},
-                       "vent": {"border_at": {"position": [1, 2, 3]}}},
-            "cuts": ["centre_front", "heel"], "seams": ["dart"], "holes": "keep",
-            "regions": {"exterior": {"contains": {"vertex": 5200}}, "interior": {}},
-            "locks": [{"curve": "centre_front"}, {"curve": "topline", "keep": "total"}],
-            "constraints": [{"kind": "range", "curve": "featherline", "min_percent": -1},
-                            {"kind": "match", "curve": "heel", "region": "exterior"},
-                            {"kind": "pin", "point": "toe_point", "at_mm": [1, 2], "priority": 7}],
-            "on_conflict": "relax",
-            "material": {"stretch_max_percent": 5, "compress_max_percent": 2},
-            "method": {"name": "geodesic_fan", "angles": "averaged_conformal"},
-            "layout": {"arrangement": "pair"}, "tag": "order-4711"})");
-        CHECK(request.units == Unit::in);
-        CHECK(request.surface_groups == std::vector<std::string>{"upper"});
-        CHECK(request.weld_tolerance_mm == 0.01);
-        CHECK(request.points.size() == 2);
-        REQUIRE(request.curves.size() == 5);  // in alphabetical order
-        CHECK(request.curves[0].vertices == std::vector<std::int32_t>{80, 240});
-        CHECK(request.curves[1].form == CurveForm::border_of);
-        CHECK(request.curves[2].form == CurveForm::polyline);
-        CHECK(request.curves[3].via == std::vector<std::string>{"c"});
-        CHECK(request.curves[4].border_at->position == Position{1, 2, 3});
-        CHECK(request.seams == std::vector<std::string>{"dart"});
-        CHECK(request.holes == Holes::keep);
-        REQUIRE(request.regions.size() == 2);
-        CHECK(request.regions[0].name == "lateral");
-        CHECK(request.regions[0].contains->vertex == 5200);
-        CHECK(request.regions[1].name == "medial");
-        CHECK(request.constraints[0].keep == KeepLength::edges);
-        CHECK(request.constraints[1].keep == KeepLength::total);
-        REQUIRE(request.constraints.size() == 5);
-        CHECK(request.constraints[2].min_percent == -1.0);
-        CHECK_FALSE(request.constraints[2].max_percent.has_value());
-        CHECK(request.constraints[3].with_curve == "heel");
-        CHECK(request.constraints[3].region == "lateral");
-        CHECK(request.constraints[4].vertex == 80);
-        CHECK(request.constraints[4].priority == 7);
-        CHECK(request.constraints[4].path == std::vector<std::string>{"constraints", "2"});
-        CHECK(request.on_conflict == Conflict::relax);
-        CHECK(request.material->compress_max_percent == 2.0);
-        CHECK(request.method.angles == Angles::averaged_conformal);
+        const FlattenRequest request = flatten_request_from_json(everything);
+        const Request& asked = request.asked;
+        CHECK(asked.weld.unit_mm == 25.4);
+        CHECK(asked.weld.groups == std::vector<std::string>{"upper"});
+        CHECK(asked.weld.tolerance_mm == 0.01);
+        CHECK(asked.points.size() == 2);
+        REQUIRE(asked.curves.size() == 6);  // in alphabetical order
+        CHECK(std::get<VertexPath>(asked.curves[0].form).vertices == std::vector<Index>{80, 240});
+        CHECK(std::get<GroupBorder>(asked.curves[1].form).groups.size() == 2);
+        CHECK(std::get<Polyline>(asked.curves[2].form).points.size() == 2);
+        CHECK(std::get<NamedLine>(asked.curves[3].form).line == "by hand");
+        CHECK(std::get<ShortestPath>(asked.curves[4].form).through ==
+              std::vector<std::string>{"a", "c", "b"});
+        CHECK(std::get<BorderAt>(asked.curves[5].form).location == Location(Vec3(1, 2, 3)));
+        CHECK(asked.cut.seams == std::vector<std::string>{"dart"});
+        CHECK(asked.cut.holes == HoleRule::keep);
+        REQUIRE(asked.cut.regions.size() == 2);
+        CHECK(asked.cut.regions[0].name == "lateral");
+        CHECK(asked.cut.regions[0].inside == Location(5200));
+        CHECK(asked.cut.regions[1].name == "medial");
+        REQUIRE(asked.constraints.size() == 6);
+        CHECK(std::get<Lock>(asked.constraints[0].demand).keep == Keep::edges);
+        CHECK(std::get<Lock>(asked.constraints[1].demand).keep == Keep::total);
+        const auto& range = std::get<Range>(asked.constraints[2].demand);
+        CHECK(range.min_percent == -1.0);
+        CHECK(range.max_percent == std::numeric_limits<double>::infinity());
+        const auto& match = std::get<Match>(asked.constraints[3].demand);
+        CHECK(match.with_curve == "heel");
+        CHECK(match.region == "lateral");
+        CHECK(std::get<Pin>(asked.constraints[4].demand).vertex == 80);
+        CHECK(asked.constraints[4].priority == 7);
+        CHECK(asked.constraints[4].option == std::vector<std::string>{"constraints", "2"});
+        CHECK(std::get<TotalArea>(asked.constraints[5].demand).max_percent == 0.0);
+        CHECK(asked.on_conflict == OnConflict::relax);
+        CHECK(asked.material->compress_max_percent == 2.0);
+        CHECK(asked.method.angles == AngleRule::averaged_conformal);
         CHECK(request.tag == "order-4711");
     }
 
     TEST_CASE("weights and their zones are read") {
-        const FlattenRequest request = flatten_request_from_json(R"({
-            "points": {"toe_point": {"vertex": 80}},
-            "weights": {"compression": 4, "zones": [
-                {"point": "toe_point", "within_mm": 9, "weight": 3},
-                {"curve": "heel", "within_mm": 5, "weight": 0.5},
-                {"vertices": [1, 2, 3], "weight": 2}]}})");
-        CHECK(request.weights.stretch == 1.0);
-        CHECK(request.weights.compression == 4.0);
-        REQUIRE(request.weights.zones.size() == 3);
-        CHECK(request.weights.zones[0].vertex == 80);
-        CHECK(request.weights.zones[1].curve == "heel");
-        CHECK(request.weights.zones[2].vertices.size() == 3);
+        const Request asked = flatten_request_from_json(weighed).asked;
+        CHECK(asked.weights.stretch == 1.0);
+        CHECK(asked.weights.compression == 4.0);
+        REQUIRE(asked.weights.zones.size() == 3);
+        CHECK(asked.weights.zones[0].vertex == 80);
+        CHECK(asked.weights.zones[1].curve == "heel");
+        CHECK(asked.weights.zones[2].vertices.size() == 3);
+    }
+
+    TEST_CASE("a request is written as it may be sent") {
+        // Written, read and written again it is the same; so nothing of it is lost on the way.
+        for (const char* text : {everything, weighed}) {
+            const std::string once = request_json(flatten_request_from_json(text).asked).dump();
+            CHECK(request_json(flatten_request_from_json(once).asked).dump() == once);
+            auto sent = nlohmann::json::parse(text), written = nlohmann::json::parse(once);
+            for (const auto& [field, value] : sent.items()) {
+                CAPTURE(field);
+                CHECK((written.contains(field) || field == "layout" || field == "tag"));
+            }
+        }
+        CHECK(request_json(flatten_request_from_json(everything).asked)["curves"].dump() ==
+              R"({"centre_front":{"vertices":[80,240]},)"
+              R"("featherline":{"border_of":{"groups":["upper","sole"]}},)"
+              R"("heel":{"polyline":[[0.0,0.0,0.0],[1.0,0.0,9.0]]},"stitches":{"line":"by hand"},)"
+              R"("topline":{"from":"a","to":"b","via":["c"]},)"
+              R"("vent":{"border_at":{"position":[1.0,2.0,3.0]}}})");
+        CHECK(request_json(flatten_request_from_json(everything).asked)["constraints"].dump() ==
+              R"([{"kind":"range","curve":"featherline","min_percent":-1.0},)"
+              R"({"kind":"match","curve":"heel","with_curve":"heel","region":"lateral"},)"
+              R"({"kind":"pin","vertex":80,"at_mm":[1.0,2.0],"priority":7},)"
+              R"({"kind":"total_area","min_percent":0.0,"max_percent":0.0}])");
     }
 
     TEST_CASE("a broken field is named by its JSON pointer") {

@@ -5,7 +5,6 @@
 
 #include "api/flatten_request.h"
 #include "api/object_reader.h"
-#include "server/worker/translate.h"
 #include "tests/bench/bench.h"
 #include "tests/helpers/face.h"
 #include "tests/helpers/sample.h"
@@ -22,12 +21,12 @@ std::string bytes_of(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void add_regions(const std::string& name, std::string_view model, const FlattenOptions& options,
+void add_regions(const std::string& name, std::string_view model, const Request& request,
                  std::vector<Subject>& subjects) {
-    SurfaceMesh surface = weld(load_model(model), options.weld);
+    SurfaceMesh surface = weld(load_model(model), request.weld);
     const auto regions = cut_into_regions(
-        surface, insert_curves(surface, locate_curves(surface, options.curves)).curves,
-        options.cut);
+        surface, insert_curves(surface, locate_curves(surface, request.curves)).curves,
+        request.cut);
     for (const Region& region : regions) {
         if (region.triangles.size() > largest_table) {
             std::cerr << "skipped: " << name << " has more than " << largest_table
@@ -35,7 +34,7 @@ void add_regions(const std::string& name, std::string_view model, const FlattenO
             continue;
         }
         subjects.push_back(
-            {regions.size() > 1 ? name + ", " + region.name : name, region, options.constraints});
+            {regions.size() > 1 ? name + ", " + region.name : name, region, request.constraints});
     }
 }
 
@@ -53,11 +52,9 @@ void add_folder(const char* variable, std::vector<Subject>& subjects) {
         fs::path request = model;
         request.replace_extension(".request.json");
         try {
-            const FlattenOptions options =
-                fs::exists(request)
-                    ? server::to_options(api::flatten_request_from_json(bytes_of(request)))
-                    : FlattenOptions{};
-            add_regions(model.stem().string(), bytes_of(model), options, subjects);
+            const std::string text = fs::exists(request) ? bytes_of(request) : "";
+            add_regions(model.stem().string(), bytes_of(model),
+                        api::flatten_request_from_json(text).asked, subjects);
         } catch (const std::runtime_error& error) {
             std::cerr << "skipped: " << model.filename().string() << ": " << error.what() << "\n";
         }

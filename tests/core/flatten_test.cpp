@@ -79,7 +79,7 @@ TEST_SUITE("core/flatten") {
              {MethodName::tutte, MethodName::chord_length, MethodName::shape_preserving,
               MethodName::mean_value, MethodName::virtual_border, MethodName::geodesic_fan,
               MethodName::mips}) {
-            options.method.name = method;
+            options.request.method.name = method;
             const FlattenResult result = test::flatten_sample(last, options);
             for (const FlatRegion& flat : result.regions) {
                 double in_space = 0, flat_sum = 0;
@@ -106,7 +106,7 @@ TEST_SUITE("core/flatten") {
         mesh.label_sets = {{"all"}};
         mesh.triangle_labels.assign(mesh.triangles.size(), 0);
         FlattenOptions options;
-        options.method = {MethodName::harmonic, BorderShape::circle};
+        options.request.method = {MethodName::harmonic, BorderShape::circle};
         Progress progress;
         try {
             (void)flatten(write_model_obj(mesh), options, progress);
@@ -147,7 +147,7 @@ TEST_SUITE("core/flatten") {
         FlattenOptions options = test::sample_options(last);
         options.fan_triangles = 100;
         CHECK(!test::flatten_sample(last, options).regions[0].fan);
-        options.draw_fan = true;
+        options.request.draw_fan = true;
         CHECK(test::flatten_sample(last, options).regions[0].fan.has_value());
         options.drawn_fan_triangles = 100;
         const FlattenResult refused = test::flatten_sample(last, options);
@@ -174,20 +174,18 @@ TEST_SUITE("core/flatten") {
     TEST_CASE("a pin that gave way does not move the chart from the one that holds") {
         const SampleLast last = make_sample_last();
         FlattenOptions options = test::sample_options(last);
-        options.on_conflict = OnConflict::relax;
+        options.request.on_conflict = OnConflict::relax;
         const FlattenResult free = test::flatten_sample(last, options);
         const Region& region = free.regions[0].region;
         const auto run = std::find_if(region.runs.begin(), region.runs.end(),
                                       [](const CurveRun& r) { return r.curve == "centre_front"; });
         REQUIRE(run != region.runs.end());
         for (const Index end : {run->vertices.front(), run->vertices.back()}) {
-            Constraint pin;  // further apart than the locked curve is long
-            pin.kind = ConstraintKind::pin;
-            pin.region = region.name;
-            pin.vertex = region.source_vertices[static_cast<std::size_t>(end)];
-            pin.priority = options.constraints.size() == 2 ? 1 : -1;
-            pin.place = Vec2(500.0 * pin.priority, 7.0);
-            options.constraints.push_back(pin);
+            // Further apart than the locked curve is long.
+            const int priority = options.request.constraints.size() == 2 ? 1 : -1;
+            const Pin pin{region.source_vertices[at(end)], Vec2(500.0 * priority, 7.0),
+                          region.name};
+            options.request.constraints.push_back({pin, priority});
         }
         const FlattenResult result = test::flatten_sample(last, options);
         std::size_t relaxed = 0;
@@ -204,8 +202,8 @@ TEST_SUITE("core/flatten") {
     TEST_CASE("a lock on a curve that is not there is an error at its field") {
         const SampleLast last = make_sample_last();
         FlattenOptions options = test::sample_options(last);
-        options.constraints.push_back(lock("collar"));
-        options.constraints.back().option = {"locks", "2"};
+        options.request.constraints.push_back(lock("collar"));
+        options.request.constraints.back().option = {"locks", "2"};
         try {
             (void)test::flatten_sample(last, options);
             FAIL("no error");

@@ -3,6 +3,7 @@
 
 #include "core/flatten.h"
 #include "core/numerics/polygon.h"
+#include "tests/helpers/constraints.h"
 #include "tests/helpers/sheets.h"
 
 namespace lastflat {
@@ -10,7 +11,7 @@ namespace {
 
 FlattenResult flatten(const std::string& obj, FlattenOptions options) {
     Progress progress;
-    options.weld.unit_mm = 1.0;
+    options.request.weld.unit_mm = 1.0;
     FlattenResult result = lastflat::flatten(obj, options, progress);
     for (const FlatRegion& flat : result.regions) {
         CHECK(flat.metrics.flipped_triangles == 0);
@@ -26,15 +27,13 @@ bool is_hole(int i, int j) {
 
 FlattenOptions with(const std::vector<CurveSource>& curves, const CutOptions& cut) {
     FlattenOptions options;
-    options.curves = curves;
-    options.cut = cut;
+    options.request.curves = curves;
+    options.request.cut = cut;
     return options;
 }
 
 CurveSource border_at(const std::string& name, const Vec3& position) {
-    CurveSource source{name};
-    source.border_at = PointSource{"", std::nullopt, position};
-    return source;
+    return {name, BorderAt{position}};
 }
 
 }  // namespace
@@ -55,7 +54,7 @@ TEST_SUITE("core/holes and seams") {
         const std::string obj = test::sheet_obj(8, 8, test::bent, is_hole);
         FlattenOptions options = with({border_at("eyelet", test::bent(3, 3))}, {});
         const auto free = flatten(obj, options);
-        options.constraints = {lock("eyelet")};
+        options.request.constraints = {lock("eyelet")};
         const auto locked = flatten(obj, options);
         const CurveReport &before = free.regions[0].curves[0], &after = locked.regions[0].curves[0];
         CHECK(before.length_3d_mm == doctest::Approx(after.length_3d_mm));
@@ -70,9 +69,7 @@ TEST_SUITE("core/holes and seams") {
 
     TEST_CASE("the area of a piece with a hole can be kept") {
         FlattenOptions options;
-        Constraint area;
-        area.kind = ConstraintKind::total_area;
-        options.constraints = {area};
+        options.request.constraints = {{TotalArea{}}};
         const auto result = flatten(test::sheet_obj(8, 8, test::bent, is_hole), options);
         CHECK(result.regions[0].metrics.area_error < 1e-9);
     }
@@ -82,7 +79,7 @@ TEST_SUITE("core/holes and seams") {
              {MethodName::mean_value, MethodName::geodesic_fan, MethodName::mips,
               MethodName::green_lagrange, MethodName::isometric}) {
             FlattenOptions options;
-            options.method.name = method;
+            options.request.method.name = method;
             const auto result = flatten(test::sheet_obj(8, 8, test::bent, is_hole), options);
             CHECK(result.regions[0].outline.holes.size() == 1);
         }
@@ -100,12 +97,12 @@ TEST_SUITE("core/holes and seams") {
         REQUIRE(result.warnings.size() == 1);
         CHECK(result.warnings[0].code == "seam_added");
         REQUIRE(result.constraints.size() == 1);
-        CHECK(result.asked[0].title() == "seam along seam_1");
+        CHECK(title(result.asked[0]) == "seam along seam_1");
     }
 
     TEST_CASE("a tube that is to stay closed is flattened as a ring") {
         FlattenOptions options;
-        options.cut.holes = HoleRule::keep;
+        options.request.cut.holes = HoleRule::keep;
         const auto result = flatten(test::tube_obj(16, 5), options);
         CHECK(result.regions[0].outline.holes.size() == 1);
         CHECK(*result.regions[0].energy > 1.1);
@@ -114,7 +111,7 @@ TEST_SUITE("core/holes and seams") {
 
     TEST_CASE("all holes are opened if that is asked for, one seam each") {
         FlattenOptions options;
-        options.cut.holes = HoleRule::open;
+        options.request.cut.holes = HoleRule::open;
         const auto result =
             flatten(test::sheet_obj(9, 9, test::bent,
                                     [](int i, int j) { return i % 3 == 1 && j % 3 == 1; }),
@@ -128,7 +125,7 @@ TEST_SUITE("core/holes and seams") {
 
     TEST_CASE("too many holes to open are refused") {
         FlattenOptions options;
-        options.cut.holes = HoleRule::open;
+        options.request.cut.holes = HoleRule::open;
         Progress progress;
         const std::string obj = test::sheet_obj(
             19, 19, test::flat, [](int i, int j) { return i % 2 == 1 && j % 2 == 1; });
@@ -138,7 +135,8 @@ TEST_SUITE("core/holes and seams") {
 
     TEST_CASE("a dart and a slit open, and their sides stay equal") {
         const std::string obj = test::sheet_obj(8, 8, test::bent);
-        const std::vector<CurveSource> curves{{"dart", {4, 13, 22}}, {"slit", {48, 49, 50, 51}}};
+        const std::vector<CurveSource> curves{{"dart", VertexPath{{4, 13, 22}}},
+                                              {"slit", VertexPath{{48, 49, 50, 51}}}};
         const auto free = flatten(obj, with(curves, {{"dart", "slit"}, {}}));
         const auto sewn = flatten(obj, with(curves, {{}, {}, {"dart", "slit"}}));
         REQUIRE(sewn.pairs.size() == 2);
@@ -153,11 +151,12 @@ TEST_SUITE("core/holes and seams") {
     }
 
     TEST_CASE("a seam that another one ends on is equal on both parts") {
-        const std::vector<CurveSource> curves{{"mid", {4, 13, 22, 31, 40, 49, 58, 67, 76}},
-                                              {"side", {31, 32, 33, 34, 35}}};
-        const auto result = flatten(
-            test::sheet_obj(8, 8, test::bent),
-            with(curves, {{}, {{"a", 27, {}}, {"b", 26, {}}, {"c", 62, {}}}, {"mid", "side"}}));
+        const std::vector<CurveSource> curves{
+            {"mid", VertexPath{{4, 13, 22, 31, 40, 49, 58, 67, 76}}},
+            {"side", VertexPath{{31, 32, 33, 34, 35}}}};
+        const auto result =
+            flatten(test::sheet_obj(8, 8, test::bent),
+                    with(curves, {{}, {{"a", 27}, {"b", 26}, {"c", 62}}, {"mid", "side"}}));
         CHECK(result.regions.size() == 3);
         CHECK(result.pairs.size() == 3);
         CHECK(result.constraints.size() == 3);
@@ -165,9 +164,9 @@ TEST_SUITE("core/holes and seams") {
     }
 
     TEST_CASE("a seam whose both sides are locked as well says nothing new") {
-        FlattenOptions options = with({{"dart", {4, 13, 22}}}, {{}, {}, {"dart"}});
+        FlattenOptions options = with({{"dart", VertexPath{{4, 13, 22}}}}, {{}, {}, {"dart"}});
         for (const Keep keep : {Keep::edges, Keep::total}) {
-            options.constraints = {lock("dart", keep)};
+            options.request.constraints = {lock("dart", keep)};
             const auto result = flatten(test::sheet_obj(8, 8, test::bent), options);
             CHECK(result.constraints.size() == 3);
             CHECK(result.regions[0].curves[0].length_2d_mm ==
@@ -177,7 +176,7 @@ TEST_SUITE("core/holes and seams") {
 
     TEST_CASE("a seam needs two sides") {
         Progress progress;
-        const auto edge = with({{"edge", {0, 1, 2}}}, {{}, {}, {"edge"}});
+        const auto edge = with({{"edge", VertexPath{{0, 1, 2}}}}, {{}, {}, {"edge"}});
         CHECK_THROWS_WITH_AS(
             (void)lastflat::flatten(test::sheet_obj(4, 4, test::flat), edge, progress),
             doctest::Contains("both sides of it"), Error);
@@ -193,8 +192,7 @@ TEST_SUITE("core/holes and seams") {
         CHECK_THROWS_WITH_AS(
             (void)lastflat::flatten(test::sheet_obj(4, 4, test::flat), far, progress),
             doctest::Contains("mm away from the nearest border"), Error);
-        CurveSource inside{"eyelet"};
-        inside.border_at = PointSource{"", 12, std::nullopt};
+        const CurveSource inside{"eyelet", BorderAt{12}};
         CHECK_THROWS_WITH_AS((void)lastflat::flatten(test::sheet_obj(4, 4, test::flat),
                                                      with({inside}, {}), progress),
                              doctest::Contains("vertex 12 is not on the border"), Error);
@@ -203,8 +201,9 @@ TEST_SUITE("core/holes and seams") {
     TEST_CASE("the outline is the outer border, however little area it spans") {
         // A tube cut open has an outline whose two long sides lie on each other; the hole's does
         // not.
-        FlattenOptions options = with({{"heel", {0, 16, 32, 48, 64, 80}}}, {{"heel"}, {}});
-        options.cut.holes = HoleRule::keep;
+        FlattenOptions options =
+            with({{"heel", VertexPath{{0, 16, 32, 48, 64, 80}}}}, {{"heel"}, {}});
+        options.request.cut.holes = HoleRule::keep;
         std::string tube = test::tube_obj(16, 5, [](double angle, int j) {
             return Vec3(20 * std::cos(angle), 20 * std::sin(angle), 12.0 * j);
         });
@@ -224,9 +223,9 @@ TEST_SUITE("core/holes and seams") {
         };
         int told = 0;
         for (const MethodName method : {MethodName::mips, MethodName::green_lagrange}) {
-            FlattenOptions options = with({{"slit", {31, 40, 49}}}, {{"slit"}, {}});
-            options.method.name = method;
-            options.weld.unit_mm = 1.0;
+            FlattenOptions options = with({{"slit", VertexPath{{31, 40, 49}}}}, {{"slit"}, {}});
+            options.request.method.name = method;
+            options.request.weld.unit_mm = 1.0;
             Progress progress;
             const auto result = lastflat::flatten(test::sheet_obj(8, 8, bump), options, progress);
             const FlatRegion& flat = result.regions[0];

@@ -51,8 +51,8 @@ TEST_SUITE("core/inspect") {
 
     TEST_CASE("holes are told with their place and what they stand for") {
         FlattenOptions open, keep;
-        open.weld.unit_mm = keep.weld.unit_mm = 1.0;
-        keep.cut.holes = HoleRule::keep;
+        open.request.weld.unit_mm = keep.request.weld.unit_mm = 1.0;
+        keep.request.cut.holes = HoleRule::keep;
         const std::string tube = test::tube_obj(12, 2);
         const Inspection kept = inspect(tube, keep), opened = inspect(tube, open);
         REQUIRE(kept.regions.at(0).holes.size() == 1);

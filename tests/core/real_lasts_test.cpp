@@ -12,7 +12,6 @@
 
 #include "api/flatten_request.h"
 #include "core/flatten.h"
-#include "server/worker/translate.h"
 #include "tests/helpers/curve_distance.h"
 
 namespace lastflat {
@@ -48,8 +47,9 @@ std::string without_groups(const std::string& obj) {
 }
 
 FlattenResult flatten_last(const std::string& name, std::size_t threads = 2) {
-    auto options = server::to_options(
-        api::flatten_request_from_json(bytes_of(folder() / (name + ".request.json"))));
+    FlattenOptions options;
+    options.request =
+        api::flatten_request_from_json(bytes_of(folder() / (name + ".request.json"))).asked;
     options.threads = threads;
     Progress progress;
     return flatten(bytes_of(folder() / (name + ".obj")), options, progress);
@@ -115,7 +115,7 @@ TEST_SUITE("core/real_lasts") {
         REQUIRE(result.regions.size() == 1);
         CHECK(result.regions[0].metrics.flipped_triangles == 0);
         FlattenOptions welded;
-        welded.weld.tolerance_mm = 0.0;
+        welded.request.weld.tolerance_mm = 0.0;
         const FlattenResult ring =
             flatten(bytes_of(folder() / "uomo_t10_size42_upper_disk_10k.obj"), welded, progress);
         REQUIRE(result.regions.size() == 1);
@@ -131,7 +131,7 @@ TEST_SUITE("core/real_lasts") {
             CAPTURE(name);
             const std::string model = bytes_of(folder() / (std::string(name) + "_closed.obj"));
             FlattenOptions options;
-            options.weld.groups = {"upper"};
+            options.request.weld.groups = {"upper"};
             Progress progress;
             const FlattenResult found = flatten(model, options, progress);
             const FlattenResult with_true_curves = flatten_last(std::string(name) + "_closed");
@@ -153,21 +153,26 @@ TEST_SUITE("core/real_lasts") {
             const std::string name = lateral[n].name;
             CAPTURE(name);
             const std::string bytes = bytes_of(folder() / (name + "_closed.obj"));
-            const auto request = api::flatten_request_from_json(
-                bytes_of(folder() / (name + "_closed.request.json")));
+            const Request request =
+                api::flatten_request_from_json(bytes_of(folder() / (name + "_closed.request.json")))
+                    .asked;
             const RawMesh raw = load_model(bytes);
             Progress progress;
             const FlattenResult result = flatten(without_groups(bytes), {}, progress);
-            REQUIRE(result.found.has_value());
-            CHECK(result.found->foot == Foot::right);
-            for (const CurveSource& curve : result.found->curves) {
-                Points3 found = curve.polyline, truth;
-                for (const Index v : curve.vertices)
-                    found.push_back(raw.positions[static_cast<std::size_t>(v)]);
-                for (const auto& wire : request.curves) {
-                    if (wire.name != curve.name) continue;
-                    for (const Index v : wire.vertices)
-                        truth.push_back(raw.positions[static_cast<std::size_t>(v)]);
+            REQUIRE(result.plan.landmarks.has_value());
+            CHECK(result.plan.landmarks->foot == Foot::right);
+            const auto points_of = [&](const CurveSource& curve) {
+                if (const auto* line = std::get_if<Polyline>(&curve.form)) return line->points;
+                Points3 points;
+                for (const Index v : std::get<VertexPath>(curve.form).vertices)
+                    points.push_back(raw.positions[at(v)]);
+                return points;
+            };
+            for (const CurveSource& curve : result.plan.request.curves) {
+                const Points3 found = points_of(curve);
+                Points3 truth;
+                for (const CurveSource& known : request.curves) {
+                    if (known.name == curve.name) truth = points_of(known);
                 }
                 const auto there = test::distance_between(truth, found);
                 const auto back = test::distance_between(found, truth);

@@ -22,30 +22,32 @@ FlattenOptions options_of(std::uint8_t choice) {
                                  MethodName::geodesic_fan, MethodName::mean_value};
     const MethodName free[] = {MethodName::mips, MethodName::green_lagrange, MethodName::harmonic,
                                MethodName::virtual_border};
-    options.method.name = path == 0 && (choice & 8) != 0 ? free[choice % 4] : locked[choice % 4];
-    options.method.angles =
+    options.request.method.name =
+        path == 0 && (choice & 8) != 0 ? free[choice % 4] : locked[choice % 4];
+    options.request.method.angles =
         (choice & 4) != 0 ? AngleRule::averaged_conformal : AngleRule::curvature;
-    options.method.border = (choice & 4) != 0 ? BorderShape::square : BorderShape::circle;
-    options.cut.holes = static_cast<HoleRule>(choice % 3);
+    options.request.method.border = (choice & 4) != 0 ? BorderShape::square : BorderShape::circle;
+    options.request.cut.holes = static_cast<HoleRule>(choice % 3);
     if (path > 0) {
-        CurveSource curve{"heel", {}};
-        for (Index v = 0; v <= path; ++v) curve.vertices.push_back(v);
-        options.curves.push_back(curve);
-        options.constraints.push_back(lock("heel", (choice & 8) != 0 ? Keep::total : Keep::edges));
-        (choice % 2 == 0 ? options.cut.cuts : options.cut.seams).push_back("heel");
+        VertexPath heel;
+        for (Index v = 0; v <= path; ++v) heel.vertices.push_back(v);
+        options.request.curves.push_back({"heel", heel});
+        options.request.constraints.push_back(
+            {Lock{"heel", (choice & 8) != 0 ? Keep::total : Keep::edges}});
+        (choice % 2 == 0 ? options.request.cut.cuts : options.request.cut.seams).push_back("heel");
     }
     return options;
 }
 
 void check(const FlattenResult& result) {
-    if (result.method == MethodName::isometric) {
+    if (result.plan.request.method.name == MethodName::isometric) {
         for (const ConstraintReport& report : result.constraints) fuzz::require(report.kept);
     }
     for (const FlatRegion& flat : result.regions) {
         for (const Vec2& p : flat.chart.uv) fuzz::require(p.allFinite());
         fuzz::require(flat.chart.uv.size() == flat.region.positions.size());
         fuzz::require(flat.metrics.flipped_triangles == 0);
-        if (result.method != MethodName::isometric) continue;
+        if (result.plan.request.method.name != MethodName::isometric) continue;
         fuzz::require(flat.metrics.border_crossings == 0);
         for (const CurveReport& curve : flat.curves) {
             fuzz::require(!curve.locked || curve.verdict == Verdict::pass);

@@ -4,6 +4,7 @@
 #include "core/border/convex_border.h"
 #include "core/constrain/resolve_conflicts.h"
 #include "core/parameterize/fixed_border.h"
+#include "tests/helpers/constraints.h"
 
 namespace lastflat::test {
 

@@ -4,16 +4,18 @@
 #include "core/export/write_model.h"
 #include "core/flatten.h"
 #include "core/sample/sample_last.h"
+#include "tests/helpers/constraints.h"
 
 namespace lastflat::test {
 
 inline FlattenOptions sample_options(const SampleLast& last) {
     FlattenOptions options;
-    options.weld.groups = {"upper"};
-    for (const auto& [name, vertices] : last.curves) options.curves.push_back({name, vertices});
-    options.cut = {{"centre_front", "heel"},
-                   {{"lateral", last.lateral_vertex, {}}, {"medial", last.medial_vertex, {}}}};
-    options.constraints = {lock("centre_front"), lock("heel")};
+    options.request.weld.groups = {"upper"};
+    for (const auto& [name, vertices] : last.curves)
+        options.request.curves.push_back({name, VertexPath{vertices}});
+    options.request.cut = {{"centre_front", "heel"},
+                           {{"lateral", last.lateral_vertex}, {"medial", last.medial_vertex}}};
+    options.request.constraints = {lock("centre_front"), lock("heel")};
     return options;
 }
 

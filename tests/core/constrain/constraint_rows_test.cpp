@@ -9,13 +9,6 @@
 namespace lastflat {
 namespace {
 
-Constraint of(ConstraintKind kind, const std::string& curve = "") {
-    Constraint constraint;
-    constraint.kind = kind;
-    constraint.curve = curve;
-    return constraint;
-}
-
 struct Solved {
     ConstrainedChart chart;
     std::vector<ConstraintReport> reports;
@@ -40,12 +33,10 @@ TEST_SUITE("core/constrain/constraint_rows") {
         const auto curves = measure_curves(region, free.chart.minimum.charts[0].uv, {});
         const double percent = 100.0 * (curves[0].length_2d_mm / curves[0].length_3d_mm - 1.0);
         REQUIRE(std::abs(percent) > 0.01);
-        Constraint wide = of(ConstraintKind::range, "bottom"), tight = wide;
-        wide.min_percent = -std::abs(percent) - 1.0;
-        wide.max_percent = std::abs(percent) + 1.0;
-        tight.min_percent = percent > 0 ? -1.0 : 0.4 * percent;
-        tight.max_percent = percent > 0 ? 0.4 * percent : 1.0;
-        const Solved inside = solve({region}, {wide}), held = solve({region}, {tight});
+        const Range wide{"bottom", -std::abs(percent) - 1.0, std::abs(percent) + 1.0};
+        const Range tight{"bottom", percent > 0 ? -1.0 : 0.4 * percent,
+                          percent > 0 ? 0.4 * percent : 1.0};
+        const Solved inside = solve({region}, {{wide}}), held = solve({region}, {{tight}});
         CHECK(inside.chart.minimum.energy ==
               doctest::Approx(free.chart.minimum.energy).epsilon(1e-12));
         CHECK(held.chart.minimum.energy > free.chart.minimum.energy * (1.0 + 1e-9));
@@ -56,33 +47,28 @@ TEST_SUITE("core/constrain/constraint_rows") {
     TEST_CASE("a range that pulls from one side is let go when it need not be held") {
         // The start, a circle, is far outside; the minimum is inside.
         const Region region = test::plane();
-        Constraint range = of(ConstraintKind::range, "bottom");
-        range.min_percent = -0.5;
-        range.max_percent = 0.5;
-        CHECK(solve({region}, {range}).chart.minimum.energy == doctest::Approx(1.0).epsilon(1e-10));
+        const Range range{"bottom", -0.5, 0.5};
+        CHECK(solve({region}, {{range}}).chart.minimum.energy ==
+              doctest::Approx(1.0).epsilon(1e-10));
     }
 
     TEST_CASE("matched curves of two regions come out equally long, at the least cost") {
         Region a = test::saddle(), b = test::dome();
         a.name = "a";
         b.name = "b";
-        Constraint match = of(ConstraintKind::match, "left");
-        match.region = "a";
-        match.with_curve = "right";
-        match.with_region = "b";
-        const auto groups = coupled_regions({a, b}, {match});
+        Match match{"left", "a", "right", "b"};
+        const auto groups = coupled_regions({a, b}, {{match}});
         REQUIRE(groups.size() == 1);
-        const Solved solved = solve({a, b}, {match});
+        const Solved solved = solve({a, b}, {{match}});
         CHECK(solved.reports[0].residual_mm == doctest::Approx(0.0).epsilon(1e-9));
         CHECK(coupled_regions({a, b}, {}).size() == 2);
         match.region.clear();
-        CHECK_THROWS_AS((void)coupled_regions({a, a}, {match}), Error);
+        CHECK_THROWS_AS((void)coupled_regions({a, a}, {{match}}), Error);
     }
 
     TEST_CASE("a straight curve lies on a line, and locked as well keeps its edges") {
         const Region region = test::dome(10, 0.8);
-        const Solved solved =
-            solve({region}, {of(ConstraintKind::straight, "bottom"), lock("bottom")});
+        const Solved solved = solve({region}, {{Straight{"bottom"}}, lock("bottom")});
         CHECK(solved.reports[0].reached < 1e-8);
         const auto& uv = solved.chart.minimum.charts[0].uv;
         CHECK((uv[0] - uv[10]).norm() ==
@@ -91,12 +77,9 @@ TEST_SUITE("core/constrain/constraint_rows") {
 
     TEST_CASE("the total area is the surface's, or inside its range") {
         const Region region = test::dome(10, 0.9);
-        Constraint area = of(ConstraintKind::total_area);
-        CHECK(solve({region}, {area}).reports[0].reached ==
+        CHECK(solve({region}, {{TotalArea{}}}).reports[0].reached ==
               doctest::Approx(surface_area(region)).epsilon(1e-9));
-        area.min_percent = 3.0;
-        area.max_percent = 4.0;
-        CHECK(solve({region}, {area}).reports[0].reached ==
+        CHECK(solve({region}, {{TotalArea{3.0, 4.0}}}).reports[0].reached ==
               doctest::Approx(1.03 * surface_area(region)).epsilon(1e-9));
     }
 
@@ -104,18 +87,12 @@ TEST_SUITE("core/constrain/constraint_rows") {
         const Region region = test::saddle();
         const Minimum unpinned = solve({region}, {}).chart.minimum;
         const double free = unpinned.energy;
-        Constraint a = of(ConstraintKind::pin), b = a;
-        a.vertex = 0;
-        a.place = {12, -7};
-        b.vertex = 168;
-        b.place = {-30, 60};
-        const Solved one = solve({region}, {a});
+        const Pin a{0, {12, -7}}, b{168, {-30, 60}}, far{0, {9e4, -9e4}};
+        const Solved one = solve({region}, {{a}});
         CHECK(one.chart.minimum.energy == doctest::Approx(free).epsilon(1e-10));
         CHECK(one.chart.minimum.iterations <= unpinned.iterations + 2);
-        Constraint far = a;
-        far.place = {9e4, -9e4};
-        CHECK(solve({region}, {far, of(ConstraintKind::straight, "left")}).reports[1].kept);
-        const Solved two = solve({region}, {a, b});
+        CHECK(solve({region}, {{far}, {Straight{"left"}}}).reports[1].kept);
+        const Solved two = solve({region}, {{a}, {b}});
         CHECK((two.chart.minimum.charts[0].uv[168] - b.place).norm() < 1e-9);
         CHECK(two.chart.minimum.energy > free);
     }

@@ -11,12 +11,7 @@ namespace lastflat {
 namespace {
 
 Constraint range(const std::string& curve, double least, double most) {
-    Constraint constraint;
-    constraint.kind = ConstraintKind::range;
-    constraint.curve = curve;
-    constraint.min_percent = least;
-    constraint.max_percent = most;
-    return constraint;
+    return {Range{curve, least, most}};
 }
 
 }  // namespace
@@ -98,18 +93,14 @@ TEST_SUITE("core/constrain/resolve_conflicts") {
         Region a = test::dome(6, 0.6), b = a;
         a.name = "a";
         b.name = "b";
-        std::vector<Constraint> constraints{lock("bottom"), range("right", -95, -90),
-                                            range("top", -95, -90), range("left", -95, -90)};
-        for (Constraint& constraint : constraints) constraint.region = "b";
-        constraints.emplace_back();
-        constraints.back().kind = ConstraintKind::straight;
-        constraints.back().curve = "bottom";
-        constraints.back().region = "a";
+        std::vector<Constraint> constraints{{Lock{"bottom", Keep::edges, "b"}}};
+        for (const char* side : {"right", "top", "left"})
+            constraints.push_back({Range{side, -95, -90, "b"}});
+        constraints.push_back({Straight{"bottom", "a"}});
         const Domain domain({&a, &b});
         CHECK_FALSE(
             open_loop(domain, constraint_rows(domain, constraints), constraints).has_value());
-        constraints.back().region = "b";
-        constraints.back().priority = -1;
+        constraints.back() = {Straight{"bottom", "b"}, -1};
         const auto loop = open_loop(domain, constraint_rows(domain, constraints), constraints);
         REQUIRE(loop.has_value());
         auto rows = constraint_rows(domain, constraints);
@@ -139,20 +130,16 @@ TEST_SUITE("core/constrain/resolve_conflicts") {
         CHECK_FALSE(found(border).has_value());
 
         auto too_large = border;
-        too_large.emplace_back();
-        too_large.back().kind = ConstraintKind::total_area;
-        too_large.back().min_percent = too_large.back().max_percent = 60.0;
+        too_large.push_back({TotalArea{60.0, 60.0}});
         REQUIRE(found(too_large).has_value());
         CHECK(found(too_large)->constraints.size() == 5);
-        too_large.back().min_percent = too_large.back().max_percent = 1.0;
+        too_large.back() = {TotalArea{1.0, 1.0}};
         CHECK_FALSE(found(too_large).has_value());
 
         std::vector<Constraint> side{lock("bottom"), range("right", -95, -90),
                                      range("top", -95, -90), range("left", -95, -90)};
         CHECK_FALSE(found(side).has_value());
-        side.emplace_back();
-        side.back().kind = ConstraintKind::straight;
-        side.back().curve = "bottom";
+        side.push_back({Straight{"bottom"}});
         REQUIRE(found(side).has_value());
         CHECK(found(side)->gap_mm > 10.0);
     }
@@ -160,13 +147,7 @@ TEST_SUITE("core/constrain/resolve_conflicts") {
     TEST_CASE("two vertices pinned to one place are found before any solve") {
         const Region region = test::dome(6, 0.6);
         const Domain domain({&region});
-        Constraint a;
-        a.kind = ConstraintKind::pin;
-        a.vertex = 0;
-        a.place = {5, 5};
-        Constraint b = a;
-        b.vertex = 6;
-        const std::vector<Constraint> constraints{a, b};
+        const std::vector<Constraint> constraints{{Pin{0, {5, 5}}}, {Pin{6, {5, 5}}}};
         const auto loop = open_loop(domain, constraint_rows(domain, constraints), constraints);
         REQUIRE(loop.has_value());
         CHECK(loop->constraints.size() == 2);
@@ -179,8 +160,9 @@ TEST_SUITE("core/constrain/resolve_conflicts") {
             std::vector<Constraint> constraints;
             for (const Triangle& t : region.triangles) {
                 if (std::find(t.begin(), t.end(), centre) == t.end()) continue;
-                constraints.push_back(lock("triangle " + std::to_string(constraints.size())));
-                region.runs.push_back({constraints.back().curve, {t[0], t[1], t[2], t[0]}});
+                const std::string curve = "triangle " + std::to_string(constraints.size());
+                constraints.push_back(lock(curve));
+                region.runs.push_back({curve, {t[0], t[1], t[2], t[0]}});
             }
             const Domain domain({&region});
             return open_loop(domain, constraint_rows(domain, constraints), constraints);

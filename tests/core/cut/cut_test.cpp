@@ -25,14 +25,15 @@ std::string cut_error(const std::string& obj, const std::vector<CurveSource>& so
     return test::error_of([&] { (void)cut(obj, sources, options); });
 }
 
-const CurveSource front{"front", {0, 8, 16, 24}}, back{"back", {4, 12, 20, 28}};
+const CurveSource front{"front", VertexPath{{0, 8, 16, 24}}},
+    back{"back", VertexPath{{4, 12, 20, 28}}};
 
 }  // namespace
 
 TEST_SUITE("core/cut") {
     TEST_CASE("two cuts along a tube leave two disks that share the cuts' lengths") {
         const auto regions =
-            cut(tube(8, 3), {front, back}, {{"front", "back"}, {{"a", 9, {}}, {"b", 13, {}}}});
+            cut(tube(8, 3), {front, back}, {{"front", "back"}, {{"a", 9}, {"b", 13}}});
         REQUIRE(regions.size() == 2);
         CHECK(regions[0].name == "a");
         for (const Region& region : regions) {
@@ -61,7 +62,7 @@ TEST_SUITE("core/cut") {
 
     TEST_CASE("a slit that ends inside stays one disk and doubles only what it passes") {
         const auto regions =
-            cut(tube(8, 3), {front, {"slit", {4, 12, 20}}}, {{"front", "slit"}, {}});
+            cut(tube(8, 3), {front, {"slit", VertexPath{{4, 12, 20}}}}, {{"front", "slit"}, {}});
         REQUIRE(regions.size() == 1);
         CHECK(regions[0].positions.size() == 36 + 2);  // the slit's inner end stays one vertex
         CHECK(regions[0].border.size() == 8 + 8 + 3 + 3 + 2 + 2);
@@ -69,9 +70,9 @@ TEST_SUITE("core/cut") {
 
     TEST_CASE("a closed curve whose start lies inside a region is one run there") {
         // The ring at the bottom begins at vertex 2, in the middle of region a.
-        const CurveSource ring{"ring", {2, 3, 4, 5, 6, 7, 0, 1, 2}};
-        const auto regions = cut(tube(8, 3), {front, back, ring},
-                                 {{"front", "back"}, {{"a", 9, {}}, {"b", 13, {}}}});
+        const CurveSource ring{"ring", VertexPath{{2, 3, 4, 5, 6, 7, 0, 1, 2}}};
+        const auto regions =
+            cut(tube(8, 3), {front, back, ring}, {{"front", "back"}, {{"a", 9}, {"b", 13}}});
         REQUIRE(regions[0].runs.size() == 3);
         CHECK(regions[0].runs[2].vertices.size() == 5);
         CHECK(regions[1].runs[2].vertices.size() == 5);
@@ -110,20 +111,19 @@ TEST_SUITE("core/cut") {
 
     TEST_CASE("choices that cannot be told apart are refused") {
         const std::vector<CurveSource> both{front, back};
-        CHECK(has(cut_error(tube(8, 3), both, {{"front", "back"}, {{"a", 9, {}}, {"b", 10, {}}}}),
+        CHECK(has(cut_error(tube(8, 3), both, {{"front", "back"}, {{"a", 9}, {"b", 10}}}),
                   "is the same piece as region 'a'"));
-        CHECK(
-            has(cut_error(tube(8, 3), both, {{"front", "back"}, {{"a", 8, {}}}}), "lies on a cut"));
-        CHECK(has(cut_error(tube(8, 3), both, {{"front", "back"}, {{"a", {}, {}}}}), "2 pieces"));
+        CHECK(has(cut_error(tube(8, 3), both, {{"front", "back"}, {{"a", 8}}}), "lies on a cut"));
+        CHECK(has(cut_error(tube(8, 3), both, {{"front", "back"}, {{"a"}}}), "2 pieces"));
         CHECK(has(cut_error(tube(8, 3), both, {{"front", "side"}, {}}),
                   "curve_invalid /cuts/1: cut 'side' names no curve"));
-        CHECK(has(cut_error(tube(8, 3), both, {{"front", "back"}, {{"a", 99, {}}}}),
+        CHECK(has(cut_error(tube(8, 3), both, {{"front", "back"}, {{"a", 99}}}),
                   "not on the selected faces"));
     }
 
     TEST_CASE("a region may be chosen by a place") {
         const auto regions =
-            cut(tube(8, 3), {front, back}, {{"front", "back"}, {{"b", {}, Vec3(0, -1, 1.1)}}});
+            cut(tube(8, 3), {front, back}, {{"front", "back"}, {{"b", Vec3(0, -1, 1.1)}}});
         REQUIRE(regions.size() == 1);
         CHECK(std::find(regions[0].source_vertices.begin(), regions[0].source_vertices.end(), 14) !=
               regions[0].source_vertices.end());
@@ -132,13 +132,13 @@ TEST_SUITE("core/cut") {
 
 TEST_SUITE("core/locate/curves") {
     TEST_CASE("a broken path is named by curve, item and place") {
-        CHECK(has(cut_error(tube(8, 3), {{"front", {0, 8, 24}}}, {}),
+        CHECK(has(cut_error(tube(8, 3), {{"front", VertexPath{{0, 8, 24}}}}, {}),
                   "curve_invalid /curves/front/vertices/2: curve 'front', item 2: vertices 8 and "
                   "24 share no edge; they are 2.000 mm apart, at 1.0 0.0 1.0"));
-        CHECK(has(cut_error(tube(8, 3), {{"front", {0, 99}}}, {}),
+        CHECK(has(cut_error(tube(8, 3), {{"front", VertexPath{{0, 99}}}}, {}),
                   "item 1: vertex 99 does not exist"));
-        CHECK(has(cut_error(tube(8, 3), {{"front", {0, 8, 0}}}, {}), "meets itself"));
-        CHECK(has(cut_error(tube(8, 3), {{"front", {0}}}, {}), "needs two vertices"));
+        CHECK(has(cut_error(tube(8, 3), {{"front", VertexPath{{0, 8, 0}}}}, {}), "meets itself"));
+        CHECK(has(cut_error(tube(8, 3), {{"front", VertexPath{{0}}}}, {}), "needs two vertices"));
     }
 }
 

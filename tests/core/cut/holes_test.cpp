@@ -68,9 +68,10 @@ TEST_SUITE("core/cut/seam_stretches") {
         //  | a +---+
         //  |   | c |
         //  +---+---+
-        const CurveSource mid{"mid", {2, 7, 12, 17, 22}}, side{"side", {12, 13, 14}};
+        const CurveSource mid{"mid", VertexPath{{2, 7, 12, 17, 22}}},
+            side{"side", VertexPath{{12, 13, 14}}};
         const auto regions = cut(test::sheet_obj(4, 4, test::flat), {mid, side},
-                                 {{"mid", "side"}, {{"a", 5, {}}, {"b", 19, {}}, {"c", 9, {}}}});
+                                 {{"mid", "side"}, {{"a", 5}, {"b", 19}, {"c", 9}}});
         std::vector<const Region*> all;
         for (const Region& region : regions) all.push_back(&region);
         const auto stretches = seam_stretches(all, "mid");
@@ -91,8 +92,8 @@ TEST_SUITE("core/cut/seam_stretches") {
     }
 
     TEST_CASE("a slit is one stretch between the two sides of one region") {
-        const auto regions =
-            cut(test::sheet_obj(4, 4, test::flat), {{"slit", {6, 7, 12}}}, {{"slit"}, {}});
+        const auto regions = cut(test::sheet_obj(4, 4, test::flat),
+                                 {{"slit", VertexPath{{6, 7, 12}}}}, {{"slit"}, {}});
         REQUIRE(regions.size() == 1);
         const auto stretches = seam_stretches({&regions[0]}, "slit");
         REQUIRE(stretches.size() == 1);
@@ -138,8 +139,8 @@ TEST_SUITE("core/cut/open_holes") {
     }
 
     TEST_CASE("a slit is never opened") {
-        const auto regions =
-            cut(test::sheet_obj(4, 4, test::flat), {{"slit", {6, 7, 12}}}, {{"slit"}, {}});
+        const auto regions = cut(test::sheet_obj(4, 4, test::flat),
+                                 {{"slit", VertexPath{{6, 7, 12}}}}, {{"slit"}, {}});
         REQUIRE(regions[0].holes.size() == 1);
         CHECK(is_slit(regions[0], regions[0].holes[0]));
         CHECK_FALSE(is_slit(regions[0], regions[0].border));
@@ -166,20 +167,21 @@ TEST_SUITE("core/cut/open_holes") {
     }
 
     TEST_CASE("the hole that is opened first is opened at the heel, whatever else is sewn") {
-        FlattenOptions options;
-        options.weld.unit_mm = 1.0;
-        options.curves = {{"seam_1", {24 + 2, 48 + 2, 72 + 2}}};
-        options.cut.seams = {"seam_1"};
-        SurfaceMesh surface = weld(load_model(upper), options.weld);
-        const CutSurface cut = cut_surface(surface, options, Found::none, Progress());
-        REQUIRE(options.cut.seams.size() == 2);
-        CHECK(options.cut.seams[1] == "seam_2");  // another name than the curve's
+        Request request;
+        request.weld.unit_mm = 1.0;
+        request.curves = {{"seam_1", VertexPath{{24 + 2, 48 + 2, 72 + 2}}}};
+        request.cut.seams = {"seam_1"};
+        SurfaceMesh surface = weld(load_model(upper), request.weld);
+        const CutSurface cut = cut_surface(surface, make_plan(surface, request), Progress());
+        REQUIRE(cut.seams.size() == 2);
+        CHECK(cut.seams[1] == "seam_2");  // another name than the curve's
         CHECK(cut.inserted.curves.back().vertices.front() == 12);
         CHECK(cut.warnings.size() == 1);
     }
 
     TEST_CASE("a heel curve that joins two loops is where the piece is opened") {
-        const CurveSource inner{"heel", {1, 25, 49, 73}}, whole{"heel", {1, 25, 49, 73, 97}};
+        const CurveSource inner{"heel", VertexPath{{1, 25, 49, 73}}},
+            whole{"heel", VertexPath{{1, 25, 49, 73, 97}}};
         const auto opened = seams(cut(upper, {whole})[0], HoleRule::automatic);
         REQUIRE(opened.size() == 1);
         CHECK(opened[0].curve == "heel");
@@ -189,8 +191,8 @@ TEST_SUITE("core/cut/open_holes") {
 
 TEST_SUITE("core/parameterize/fill_holes") {
     TEST_CASE("every hole, also a slit in a plane, is closed by triangles that have an area") {
-        const auto slit =
-            cut(test::sheet_obj(4, 4, test::flat), {{"slit", {6, 7, 8}}}, {{"slit"}, {}});
+        const auto slit = cut(test::sheet_obj(4, 4, test::flat), {{"slit", VertexPath{{6, 7, 8}}}},
+                              {{"slit"}, {}});
         for (const Region& region : {cut(ring())[0], slit[0]}) {
             const Region disk = with_holes_filled(region);
             CHECK(disk.positions.size() == region.positions.size() + 1);
@@ -214,9 +216,8 @@ TEST_SUITE("core/cut/insert_curves") {
         const auto old_vertices = surface.mesh.n_vertices();
         const SurfaceMesh before = surface;
         const auto line = [&](const std::string& name, Index from, Index to) {
-            CurveSource source{name};
-            source.through = {"from", "to"};
-            return locate_curves(surface, {source}, {{"from", from, {}}, {"to", to, {}}}).front();
+            const CurveSource source{name, ShortestPath{{"from", "to"}}};
+            return locate_curves(surface, {source}, {{"from", from}, {"to", to}}).front();
         };
         InsertedCurves inserted =
             insert_curves(surface, {line("first", 5, 14), line("other", 15, 24)});

@@ -69,15 +69,11 @@ bool runs_along_edges(const SurfaceMesh& surface, const Curve& curve) {
 }
 
 CurveSource drawn(const std::string& name, const Points3& points) {
-    CurveSource source{name};
-    source.polyline = points;
-    return source;
+    return {name, Polyline{points}};
 }
 
 CurveSource geodesic(const std::string& name, const std::vector<std::string>& through) {
-    CurveSource source{name};
-    source.through = through;
-    return source;
+    return {name, ShortestPath{through}};
 }
 
 std::string insert_error(SurfaceMesh surface, const std::vector<CurveSource>& sources,
@@ -93,23 +89,23 @@ TEST_SUITE("core/cut/insert_curves") {
         SurfaceMesh surface = surface_of(bumpy(20));
         const SurfaceMesh before = surface;
         const std::vector<PointSource> points{
-            {"a", {}, Vec3(3.3, 4.4, 0)}, {"b", {}, Vec3(91.7, 77.7, 0)}, {"c", 25, {}}};
+            {"a", Vec3(3.3, 4.4, 0)}, {"b", Vec3(91.7, 77.7, 0)}, {"c", 25}};
         Points3 ring;
         for (int i = 0; i <= 24; ++i)
             ring.emplace_back(50 + 20 * std::cos(i % 24 * M_PI / 12),
                               50 + 20 * std::sin(i % 24 * M_PI / 12), 0);
         const auto lines =
             locate_curves(surface,
-                          {geodesic("ab", {"a", "b"}),
+                          {{"row", VertexPath{{42, 43, 44}}},
+                           geodesic("ab", {"a", "b"}),
                            geodesic("cb", {"c", "b"}),
                            drawn("ring", ring),
-                           drawn("across", {{0.2, 40, 0}, {50, 44, 0}, {99.9, 61, 0}}),
-                           {"row", {42, 43, 44}}},
+                           drawn("across", {{0.2, 40, 0}, {50, 44, 0}, {99.9, 61, 0}})},
                           points);
         const InsertedCurves inserted = insert_curves(surface, lines);
         REQUIRE(inserted.curves.size() == 5);
         for (const Curve& curve : inserted.curves) CHECK(runs_along_edges(surface, curve));
-        CHECK(inserted.curves[2].closed());
+        CHECK(inserted.curves[3].closed());
         CHECK(area(surface) == doctest::Approx(area(before)).epsilon(1e-12));
         CHECK(inserted.added.size() + before.mesh.n_vertices() == surface.mesh.n_vertices());
         CHECK(inserted.smallest_angle > 0.0);
@@ -136,7 +132,7 @@ TEST_SUITE("core/cut/insert_curves") {
 
     TEST_CASE("a shortest path is as long as it says, and drawn ends reach the border") {
         SurfaceMesh surface = surface_of(bumpy(20));
-        const std::vector<PointSource> points{{"a", {}, Vec3(0.4, 33, 0)}, {"b", 20 * 21 + 7, {}}};
+        const std::vector<PointSource> points{{"a", Vec3(0.4, 33, 0)}, {"b", 20 * 21 + 7}};
         const auto lines = locate_curves(surface, {geodesic("ab", {"a", "b"})}, points);
         double along = 0.0;
         for (std::size_t i = 1; i < lines[0].places.size(); ++i)
@@ -179,8 +175,7 @@ TEST_SUITE("core/cut/insert_curves") {
     }
 
     TEST_CASE("groups meet along a line, also where one of them takes no part") {
-        CurveSource seam{"seam"};
-        seam.border_of = {"left", "right"};
+        const CurveSource seam{"seam", GroupBorder{{"left", "right"}}};
         for (const std::vector<std::string>& groups :
              {std::vector<std::string>{}, std::vector<std::string>{"left"}}) {
             WeldOptions options;
@@ -191,8 +186,8 @@ TEST_SUITE("core/cut/insert_curves") {
             REQUIRE(curves[0].vertices.size() == 11);
             for (const Index v : curves[0].vertices) CHECK(surface.position(v).x() == 50.0);
         }
-        seam.border_of = {"left", "middle"};
-        CHECK(has(insert_error(surface_of(bumpy(4)), {seam}),
+        const CurveSource other{"seam", GroupBorder{{"left", "middle"}}};
+        CHECK(has(insert_error(surface_of(bumpy(4)), {other}),
                   "group_not_found /curves/seam/border_of/groups/1"));
     }
 
@@ -200,21 +195,20 @@ TEST_SUITE("core/cut/insert_curves") {
         RawMesh raw = bumpy(10);
         raw.lines.push_back({{"drawn by hand"}, {5, 38, 60, 115}});
         SurfaceMesh surface = surface_of(raw);
-        CurveSource source{"heel"};
-        source.line = "drawn by hand";
+        const CurveSource source{"heel", NamedLine{"drawn by hand"}};
         const auto curves = insert_curves(surface, locate_curves(surface, {source})).curves;
         CHECK(runs_along_edges(surface, curves[0]));
         CHECK(curves[0].vertices.front() == 5);
         CHECK(curves[0].vertices.back() == 115);
-        source.line = "another";
-        CHECK(has(insert_error(surface, {source}), "curve_invalid /curves/heel/line"));
+        const CurveSource other{"heel", NamedLine{"another"}};
+        CHECK(has(insert_error(surface, {other}), "curve_invalid /curves/heel/line"));
     }
 
     TEST_CASE("what cannot be found is refused with the curve, the item and the place") {
         const SurfaceMesh surface = surface_of(bumpy(10));
         CHECK(has(insert_error(surface, {drawn("far", {{1, 1, 0}, {50, 50, 40}})}),
                   "curve_invalid /curves/far/polyline/1: curve 'far', item 1: the point is"));
-        CHECK(has(insert_error(surface, {geodesic("g", {"a", "b"})}, {{"a", 3, {}}}),
+        CHECK(has(insert_error(surface, {geodesic("g", {"a", "b"})}, {{"a", 3}}),
                   "curve_invalid /curves/g/to: curve 'g': there is no point 'b'"));
         CHECK(has(
             insert_error(surface,

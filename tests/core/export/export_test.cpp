@@ -5,6 +5,7 @@
 
 #include "core/export/write_model.h"
 #include "core/export/write_svg.h"
+#include "core/load/load_model.h"
 #include "tests/helpers/sample.h"
 
 namespace lastflat {
@@ -99,7 +100,7 @@ TEST_SUITE("core/export") {
         CHECK(count(write_svg(result()), "class=\"fan\"") == 0);
         const SampleLast last = make_sample_last();
         FlattenOptions options = test::sample_options(last);
-        options.draw_fan = true;
+        options.request.draw_fan = true;
         const FlattenResult drawn = test::flatten_sample(last, options);
         const std::string svg = write_svg(drawn);
         CHECK(count(svg, "class=\"fan\"") == 2);

@@ -13,8 +13,10 @@ namespace lastflat {
 namespace {
 
 Points3 points_of(const CurveSource& curve, const SurfaceMesh& surface) {
-    Points3 points = curve.polyline;
-    for (const Index v : curve.vertices) points.push_back(surface.position(v));
+    if (const auto* polyline = std::get_if<Polyline>(&curve.form)) return polyline->points;
+    Points3 points;
+    for (const Index v : std::get<VertexPath>(curve.form).vertices)
+        points.push_back(surface.position(v));
     return points;
 }
 
@@ -74,11 +76,13 @@ TEST_SUITE("core/landmarks") {
             const auto lateral = found.cut.regions.at(0), medial = found.cut.regions.at(1);
             CHECK(lateral.name == "lateral");
             // The true sides are those of the sample.
-            const auto side = [&](Index v) { return raw.positions[static_cast<std::size_t>(v)]; };
-            CHECK((side(*lateral.vertex) - side(last.lateral_vertex)).norm() <
-                  (side(*lateral.vertex) - side(last.medial_vertex)).norm());
-            CHECK((side(*medial.vertex) - side(last.medial_vertex)).norm() <
-                  (side(*medial.vertex) - side(last.lateral_vertex)).norm());
+            const auto side = [&](const Location& inside) {
+                return raw.positions[at(std::get<Index>(inside))];
+            };
+            CHECK((side(*lateral.inside) - side(last.lateral_vertex)).norm() <
+                  (side(*lateral.inside) - side(last.medial_vertex)).norm());
+            CHECK((side(*medial.inside) - side(last.medial_vertex)).norm() <
+                  (side(*medial.inside) - side(last.lateral_vertex)).norm());
         }
     }
 

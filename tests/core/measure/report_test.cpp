@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/measure/check_result.h"
+#include "tests/helpers/constraints.h"
 #include "tests/helpers/shapes.h"
 
 namespace lastflat {

@@ -1,0 +1,35 @@
+#include "api/json.h"
+#include "api/request_json.h"
+#include "core/error.h"
+#include "core/plan/plan.h"
+
+namespace lastflat::api {
+
+Json json_of(const lastflat::Repair& repair) {
+    return {{"code", repair.code},
+            {"count", repair.count},
+            {"detail", repair.detail},
+            {"positions", json_of(repair.positions)}};
+}
+
+Json json_of(const lastflat::Warning& warning) {
+    Json json{{"code", warning.code}, {"detail", warning.detail}};
+    if (warning.position) json["position"] = json_of(*warning.position);
+    return json;
+}
+
+Json json_of(const lastflat::Plan& plan) {
+    const Landmarks& found = plan.landmarks.value();
+    return {{"foot", found.foot == Foot::left ? "left" : "right"},
+            {"up", json_of(found.up)},
+            {"forward", json_of(found.forward)},
+            {"heel_point", json_of(found.heel_point)},
+            {"toe_point", json_of(found.toe_point)},
+            {"confidence",
+             {{"featherline", found.featherline_confidence},
+              {"topline", found.topline_confidence},
+              {"sides", found.sides_confidence}}},
+            {"request", request_json(plan.request)}};
+}
+
+}  // namespace lastflat::api

@@ -1,0 +1,69 @@
+#include "core/constrain/refine.h"
+
+#include "core/constrain/scale_to_locks.h"
+#include "core/parameterize/distortion_weights.h"
+
+namespace lastflat {
+namespace {
+
+ConstrainedChart isometric(const Domain& domain, const std::vector<Chart>& starts,
+                           const Request& request, const std::vector<Constraint>& constraints,
+                           std::size_t threads, const Progress& progress) {
+    const DistortionWeights& asked = request.weights;
+    std::vector<std::vector<double>> weights;
+    for (const Region* region : domain.regions)
+        weights.push_back(triangle_weights(*region, asked.zones));
+    const SymmetricDirichlet even;
+    const WeightedDirichlet uneven(asked.stretch, asked.compression);
+    const IsotropicEnergy& energy =
+        asked.even() ? static_cast<const IsotropicEnergy&>(even) : uneven;
+    return least_distortion(domain, starts,
+                            {constraints, energy, std::move(weights), request.on_conflict, true},
+                            threads, progress);
+}
+
+ConstrainedChart least_energy(const Domain& domain, const std::vector<Chart>& starts,
+                              const IsotropicEnergy& energy, std::size_t threads,
+                              const Progress& progress) {
+    const std::vector<Constraint> none;
+    return least_distortion(domain, starts, {none, energy}, threads, progress);
+}
+
+/// A method without a scale of its own.
+ConstrainedChart scaled(const Domain& domain, ConstrainedChart result,
+                        const std::vector<Constraint>& constraints) {
+    for (std::size_t r = 0; r < domain.regions.size(); ++r) {
+        Chart& chart = result.minimum.charts[r];
+        chart = scaled_to_locks(*domain.regions[r], std::move(chart), constraints);
+    }
+    return result;
+}
+
+}  // namespace
+
+ConstrainedChart refine(const Domain& domain, std::vector<Chart> starts, const Request& request,
+                        const std::vector<Constraint>& constraints, std::size_t threads,
+                        const Progress& progress) {
+    switch (request.method.name) {
+        case MethodName::isometric:
+            return isometric(domain, starts, request, constraints, threads, progress);
+        case MethodName::green_lagrange:
+            return least_energy(domain, starts, GreenLagrange(), threads, progress);
+        case MethodName::mips:
+            return scaled(domain, least_energy(domain, starts, Mips(), threads, progress),
+                          constraints);
+        case MethodName::tutte:
+        case MethodName::chord_length:
+        case MethodName::shape_preserving:
+        case MethodName::harmonic:
+        case MethodName::wachspress:
+        case MethodName::mean_value:
+        case MethodName::virtual_border:
+        case MethodName::geodesic_fan: break;
+    }
+    ConstrainedChart start;
+    start.minimum.charts = std::move(starts);
+    return scaled(domain, std::move(start), constraints);
+}
+
+}  // namespace lastflat

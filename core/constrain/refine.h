@@ -1,0 +1,17 @@
+// From the start of a method to its answer.
+#pragma once
+
+#include "core/constrain/resolve_conflicts.h"
+
+namespace lastflat {
+
+/// The starts of a domain as they become the answer of the request's method: at the least of its
+/// energy (`isometric` under the constraints), or each scaled as a whole to its locks.
+///
+/// Throws: Error, as `least_distortion`.
+[[nodiscard]] ConstrainedChart refine(const Domain& domain, std::vector<Chart> starts,
+                                      const Request& request,
+                                      const std::vector<Constraint>& constraints,
+                                      std::size_t threads, const Progress& progress);
+
+}  // namespace lastflat

@@ -1,0 +1,256 @@
+// What is asked, in plain types: the shoe-maker's request, and what one run may take. Above all
+// stages: each of them takes its part from here.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/numerics/types.h"
+
+namespace lastflat {
+
+/// Names with a meaning everywhere; all others are free.
+namespace curve_name {
+/// From the toe point over toe and instep to the topline; may be given in these two parts.
+inline constexpr const char* centre_front = "centre_front";
+inline constexpr const char *toe = "toe", *instep = "instep";
+inline constexpr const char* heel = "heel";  ///< the back curve
+inline constexpr const char *featherline = "featherline", *topline = "topline";
+}  // namespace curve_name
+namespace region_name {
+inline constexpr const char *lateral = "lateral", *medial = "medial";
+}  // namespace region_name
+
+/// What a model may be at most. Every reader checks before it allocates.
+struct LoadLimits {
+    std::size_t vertices = 4'000'000;
+    std::size_t triangles = 4'000'000;
+    std::size_t polygon_corners = 1024;  ///< of one OBJ face
+    std::size_t name_bytes = 256;        ///< of one group name
+    std::size_t face_names = 64;         ///< of one face
+    std::size_t name_sets = 4096;        ///< different sets of names
+    std::size_t lines = 4096;            ///< polylines
+    std::size_t json_depth = 64;         ///< nesting inside glTF
+};
+
+struct WeldOptions {
+    std::optional<double> unit_mm;    ///< one unit of the model in mm; default: the format's
+    std::vector<std::string> groups;  ///< faces that carry one of these names; empty: all faces
+    /// Vertices at most this far apart become one. Default: those of the same place, within
+    /// `same_place` of the model's size, and only in models without indices, so that a slit stays
+    /// a slit.
+    std::optional<double> tolerance_mm;
+    /// Borders at most this far apart are stitched together; 0: none. Default: `near_border` of the
+    /// model's size, and only if this closes a model that comes in several pieces.
+    std::optional<double> stitch_mm;
+};
+
+/// A vertex, by its id in the file, or a point in space near the surface, mm.
+using Location = std::variant<Index, Vec3>;
+
+struct PointSource {
+    std::string name;
+    Location location;
+};
+
+/// Vertices of which consecutive ones share an edge.
+struct VertexPath {
+    std::vector<Index> vertices;
+};
+/// A line in space near the surface, mm.
+struct Polyline {
+    Points3 points;
+};
+/// Named points, joined by shortest paths.
+struct ShortestPath {
+    std::vector<std::string> through;
+};
+/// One group of faces: its border; two: where they meet.
+struct GroupBorder {
+    std::vector<std::string> groups;
+};
+/// The border loop at a location.
+struct BorderAt {
+    Location location;
+};
+/// A line of the model.
+struct NamedLine {
+    std::string line;
+};
+
+using CurveForm =
+    std::variant<VertexPath, Polyline, ShortestPath, GroupBorder, BorderAt, NamedLine>;
+
+struct CurveSource {
+    std::string name;
+    CurveForm form;
+};
+
+/// Which of the pieces is meant by a region's name.
+struct RegionChoice {
+    std::string name;
+    std::optional<Location> inside{};  ///< a point's nearest vertex is meant
+};
+
+enum class HoleRule {
+    automatic,  ///< a hole that stands for much curvature is opened, any other kept
+    keep,
+    open,
+};
+
+struct CutOptions {
+    std::vector<std::string> cuts{};      ///< names of curves
+    std::vector<RegionChoice> regions{};  ///< empty: every piece is a region
+    std::vector<std::string> seams{};     ///< curves that are cut, and sewn together
+    HoleRule holes = HoleRule::automatic;
+};
+
+// The kinds of constraints. A curve that runs through several regions is constrained in each,
+// unless `region` names one. Percents count from the curve's own length or the region's own area:
+// -1 is one per cent less; infinite: no bound.
+
+enum class Keep {
+    edges,  ///< every edge of the curve keeps its 3D length
+    total,  ///< their sum does
+};
+
+/// A curve keeps its length.
+struct Lock {
+    std::string curve;
+    Keep keep = Keep::edges;
+    std::string region{};
+};
+
+/// A curve's length stays between two shares of its own.
+struct Range {
+    std::string curve;
+    double min_percent = 0.0, max_percent = 0.0;
+    std::string region{};
+};
+
+/// A curve becomes as long as another, in the same region or not.
+struct Match {
+    std::string curve, region;
+    std::string with_curve, with_region;
+};
+
+/// A curve lies on a line: a vamp cut on the fold.
+struct Straight {
+    std::string curve;
+    std::string region{};
+};
+
+/// A region keeps its area, or stays between two shares of it.
+struct TotalArea {
+    double min_percent = 0.0, max_percent = 0.0;
+    std::string region{};
+};
+
+/// A point lies at a given place of the plane.
+struct Pin {
+    Index vertex;  ///< id of the file
+    Vec2 place;    ///< mm
+    std::string region{};
+};
+
+/// Both sides of a cut become equally long, stretch by stretch.
+struct Seam {
+    std::string curve;
+};
+
+struct Constraint {
+    std::variant<Lock, Range, Match, Straight, TotalArea, Pin, Seam> demand;
+    int priority = 0;                   ///< the least important gives way first
+    std::vector<std::string> option{};  ///< where it stands in the request
+};
+
+enum class OnConflict {
+    fail,   ///< Error{constraints_infeasible}
+    relax,  ///< the least important constraint gives way, as little as it has to
+};
+
+/// A part of the surface: what lies within a distance of a curve or of a vertex, or the triangles
+/// all of whose corners are listed. One of the three.
+struct Zone {
+    std::string curve{};
+    Index vertex = -1;              ///< id of the file
+    std::vector<Index> vertices{};  ///< ids of the file
+    double within_mm = 0.0;         ///< in a straight line, to the middle of a triangle
+    double weight = 1.0;            ///< distortion here counts so much
+};
+
+/// Where distortion matters more, and of which sign.
+struct DistortionWeights {
+    std::vector<Zone> zones{};
+    /// Of the leather when it is lasted: it stretches where the pattern is smaller than the last,
+    /// and is compressed where it is larger.
+    double stretch = 1.0, compression = 1.0;
+
+    [[nodiscard]] bool even() const { return stretch == 1.0 && compression == 1.0; }
+};
+
+/// What the leather will bear.
+struct MaterialLimits {
+    double stretch_max_percent, compress_max_percent;
+};
+
+enum class MethodName {
+    tutte,
+    chord_length,
+    shape_preserving,
+    harmonic,
+    wachspress,
+    mean_value,
+    virtual_border,
+    geodesic_fan,
+    mips,
+    green_lagrange,
+    isometric
+};
+
+/// Whether the method minimises an energy: its start is the geodesic fan.
+[[nodiscard]] constexpr bool is_energy(MethodName name) {
+    return name == MethodName::mips || name == MethodName::green_lagrange ||
+           name == MethodName::isometric;
+}
+
+enum class BorderShape { square, circle, hull, floating };
+
+enum class AngleRule {
+    curvature,           ///< right globally: the conformal map that keeps border lengths
+    averaged_conformal,  ///< the paper's: one ring deep
+};
+
+struct MethodOptions {
+    MethodName name = MethodName::isometric;
+    BorderShape border = BorderShape::circle;  ///< of the methods from tutte to mean_value
+    AngleRule angles = AngleRule::curvature;   ///< of the border's polygon
+};
+
+/// What the shoe-maker asks of one pattern.
+struct Request {
+    WeldOptions weld;
+    std::vector<PointSource> points;
+    std::vector<CurveSource> curves;
+    CutOptions cut;
+    std::vector<Constraint> constraints;
+    OnConflict on_conflict = OnConflict::fail;
+    DistortionWeights weights;               ///< of `isometric`
+    std::optional<MaterialLimits> material;  ///< judged, not enforced
+    MethodOptions method;
+    bool draw_fan = false;  ///< the geodesic fan in the drawing
+};
+
+/// A request, and how it is run.
+struct FlattenOptions {
+    Request request;
+    LoadLimits limits;
+    /// Up to how many triangles of a region its fan is computed, and if it is to be drawn.
+    std::size_t fan_triangles = 20'000, drawn_fan_triangles = 250'000;
+    double layout_gap_mm = 10.0;
+    std::size_t threads = 1;
+};
+
+}  // namespace lastflat

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <chrono>
+
+namespace lastflat {
+
+class Stopwatch {
+public:
+    /// Milliseconds since the last lap.
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+        last_ = now;
+        return ms;
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace lastflat
