@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/object_reader.h"
+#include "server/jobs/refusal.h"
 
 namespace lastflat::server {
 namespace {

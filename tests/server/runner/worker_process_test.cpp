@@ -10,6 +10,7 @@
 #include "server/protocol/result_pack.h"
 #include "server/storage/blob_folder.h"
 #include "server/support/crypto.h"
+#include "server/support/files.h"
 #include "tests/helpers/temporary_folder.h"
 
 namespace lastflat::server {
