@@ -1,53 +1,72 @@
-// The raw bytes of one request's body, as they come off the socket, within all its bounds.
+// The body of one request, off the socket, within all its bounds.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
+#include "server/http/buffer.h"
 #include "server/http/chunked_framing.h"
 #include "server/http/head.h"
 #include "server/http/socket.h"
 
 namespace lastflat::http {
 
+/// What the bodies of all requests that are being served take.
+class BodyBytes {
+public:
+    explicit BodyBytes(std::size_t most) : most_(most) {}
+    /// False: there is no room for them; they count all the same until they are given back.
+    [[nodiscard]] bool take(std::size_t bytes) { return (total_ += bytes) <= most_; }
+    void give_back(std::size_t bytes) { total_ -= bytes; }
+
+private:
+    const std::size_t most_;
+    std::atomic<std::size_t> total_{0};
+};
+
+/// Its bytes count in `all_bodies` as long as it lives.
 class BodySource {
 public:
     /// The clock starts here. `early`: what arrived together with the head.
     BodySource(int fd, const Head& head, std::string early, const ServerLimits& limits,
-               const StopTime& stop_time);
+               BodyBytes& all_bodies, const StopTime& stop_time);
+    ~BodySource() { all_bodies_.give_back(taken_); }
+    BodySource(const BodySource&) = delete;
+    BodySource& operator=(const BodySource&) = delete;
 
-    /// At most `size` bytes, chunk framing included; 0 at the end of the body and after any fault.
-    [[nodiscard]] std::size_t read(char* bytes, std::size_t size);
+    /// The whole body without its chunk framing: straight from the socket if its length is known.
+    /// Once. Throws: Refusal.
+    [[nodiscard]] Buffer read();
 
     /// Whether the body was read to its end.
-    [[nodiscard]] bool is_complete() const { return fault_ == Fault::none && at_end(); }
+    [[nodiscard]] bool is_complete() const { return chunked_ ? framing_.complete() : left_ == 0; }
     /// What arrived behind the body: the next request.
-    [[nodiscard]] std::string rest() const { return buffer_.substr(used_); }
+    [[nodiscard]] std::string rest() const { return arrived_.substr(used_); }
+    /// Chunk framing included.
     [[nodiscard]] std::uint64_t raw_bytes() const { return raw_bytes_; }
 
-    /// Throws: Refusal if the body was not read to its end, saying why.
-    void check_complete() const;
-
 private:
-    enum class Fault { none, too_slow, too_large, cut_off, broken_chunks };
-
-    [[nodiscard]] bool at_end() const;
-    [[nodiscard]] bool refill();
+    void read_known_length(Buffer& body);
+    void read_chunks(Buffer& body);
+    [[nodiscard]] std::size_t receive(char* bytes, std::size_t size) const;
+    void take(std::size_t bytes);
     [[nodiscard]] Clock::time_point deadline() const;
-    [[nodiscard]] std::size_t accept(std::size_t available, const char* bytes);
 
     const int fd_;
     const bool chunked_;
     const ServerLimits& limits_;
+    BodyBytes& all_bodies_;
     const StopTime& stop_time_;
     const Clock::time_point start_ = Clock::now();
     ChunkedFraming framing_;
     std::uint64_t left_;  ///< of a body of known length
     std::uint64_t raw_bytes_ = 0;
-    std::string buffer_;
-    std::size_t used_ = 0;  ///< of buffer_
-    Fault fault_ = Fault::none;
+    std::size_t taken_ = 0;  ///< of all_bodies_
+    std::string arrived_;
+    std::size_t used_ = 0;  ///< of arrived_
 };
 
 }  // namespace lastflat::http

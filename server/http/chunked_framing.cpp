@@ -19,14 +19,15 @@ int hex_value(char c) {
 
 }  // namespace
 
-std::size_t ChunkedFraming::follow(std::string_view bytes) {
+std::size_t ChunkedFraming::follow(std::string_view bytes, Buffer& data) {
     std::size_t at = 0;
     while (at < bytes.size()) {
         if (complete() || broken() || too_large()) break;
         if (state_ == State::data) {
-            const std::uint64_t step = std::min<std::uint64_t>(chunk_, bytes.size() - at);
+            const std::size_t step = std::min<std::uint64_t>(chunk_, bytes.size() - at);
+            data.append(bytes.substr(at, step));
             chunk_ -= step;
-            at += static_cast<std::size_t>(step);
+            at += step;
             if (chunk_ == 0) state_ = State::data_cr;
             continue;
         }

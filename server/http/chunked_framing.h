@@ -1,22 +1,24 @@
-// Watches the bytes of a chunked body go by and says where it ends or breaks.
+// Takes the chunks off a chunked body and says where it ends or breaks.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
+#include "server/http/buffer.h"
+
 namespace lastflat::http {
 
-/// The grammar of RFC 9112, section 7.1, without trailers. The library that decodes the body takes
-/// missing line ends for the end of the body and reads signs and "0x" in sizes; so every byte is
-/// checked before it gets there.
+/// The grammar of RFC 9112, section 7.1, without trailers: no signs, spaces or "0x" in sizes, and
+/// every line end is where it should be.
 class ChunkedFraming {
 public:
     explicit ChunkedFraming(std::uint64_t most_data) : most_data_(most_data) {}
 
-    /// Follows `bytes` up to the end of the body; returns how many belong to it and are sound.
-    /// Fewer than given: see `complete`, `broken` and `too_large`.
-    std::size_t follow(std::string_view bytes);
+    /// Follows `bytes` up to the end of the body, and appends to `data` what the chunks hold;
+    /// returns how many belong to the body and are sound. Fewer than given: see `complete`,
+    /// `broken` and `too_large`.
+    std::size_t follow(std::string_view bytes, Buffer& data);
 
     [[nodiscard]] bool complete() const { return state_ == State::complete; }
     [[nodiscard]] bool broken() const { return state_ == State::broken; }

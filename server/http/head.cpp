@@ -298,6 +298,12 @@ std::optional<std::size_t> head_length(std::string_view bytes, std::size_t searc
     return std::nullopt;
 }
 
+std::string canonical_head(const Head& head) {
+    std::string text = head.request.method + " " + head.request.path + " HTTP/1.1\r\n";
+    if (head.awaits_continue) text += "Expect: 100-continue\r\n";
+    return text + "\r\n";
+}
+
 Head vet_head(std::string_view raw, const RouteTable& routes, const ServerLimits& limits) {
     try {
         const auto lines = split_lines(raw, limits.head_lines);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "server/http/http.h"
@@ -39,6 +40,10 @@ struct Head {
 /// Throws: Refusal. OPTIONS for a path without a route of its own is the Refusal 204.
 [[nodiscard]] Head vet_head(std::string_view raw, const RouteTable& routes,
                             const ServerLimits& limits);
+
+/// The head that the HTTP library reads instead of the client's: what was vetted of the request
+/// line, and no field but the one that it may act on. A path that has a route needs no encoding.
+[[nodiscard]] std::string canonical_head(const Head& head);
 
 /// Whether the bytes begin a HEAD request: its answer has no body, whatever is wrong with it.
 [[nodiscard]] inline bool asks_for_head_only(std::string_view raw) {

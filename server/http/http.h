@@ -16,12 +16,13 @@
 
 namespace lastflat::http {
 
-/// One part of a multipart/form-data body, or the one part of any other body (name empty).
+/// One part of a multipart/form-data body, or the one part of any other body (name empty). Its
+/// bytes are those of the one body that all parts share, and last until the handler returns.
 struct BodyPart {
     std::string name;        ///< UTF-8 without control characters
     std::string file_name;   ///< as the client gave it; never a path to open
     std::string media_type;  ///< "type/subtype" in lower case, without parameters; may be empty
-    std::string bytes;
+    std::string_view bytes;
 };
 
 /// Where a handler may wait for something without taking a connection thread from others.

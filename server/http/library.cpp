@@ -9,6 +9,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "server/http/answer.h"
 #include "server/http/body_source.h"
@@ -19,31 +20,16 @@ namespace {
 constexpr int backlog = 511;
 constexpr std::size_t write_step = 1u << 20;
 
-/// The head that the library reads: one path, no header of the client's own making.
-std::string plain_head(const Head& head) {
-    if (!head.has_body()) {
-        return head.request.method == "HEAD" ? "HEAD / HTTP/1.1\r\n\r\n" : "GET / HTTP/1.1\r\n\r\n";
-    }
-    std::string text = "POST / HTTP/1.1\r\n";
-    text += head.chunked ? "Transfer-Encoding: chunked\r\n"
-                         : "Content-Length: " + std::to_string(head.content_length) + "\r\n";
-    if (head.awaits_continue) text += "Expect: 100-continue\r\n";
-    return text + "\r\n";
-}
-
-/// What the library takes for the connection: our head, then the body, then nothing.
-class RequestStream : public httplib::Stream {
+/// What the library takes for the connection: it reads the canonical head and writes the answer.
+class HeadStream : public httplib::Stream {
 public:
-    RequestStream(VettedConnection& connection, const ServerLimits& limits,
-                  const StopTime& stop_time)
-        : fd_(connection.socket.fd()),
-          head_(plain_head(connection.head)),
-          body_(fd_, connection.head, std::move(connection.early_body), limits, stop_time),
+    HeadStream(int fd, std::string head, const ServerLimits& limits, const StopTime& stop_time)
+        : fd_(fd),
+          head_(std::move(head)),
           limits_(limits),
           stop_time_(stop_time),
           write_deadline_(Clock::now() + limits.write_time) {}
 
-    [[nodiscard]] const BodySource& body() const { return body_; }
     void start_answer() { write_deadline_ = Clock::now() + limits_.write_time; }
     [[nodiscard]] bool write_failed() const { return write_failed_; }
     [[nodiscard]] std::size_t sent() const { return sent_; }
@@ -56,9 +42,9 @@ public:
         return !write_failed_ && !closed && Clock::now() < stop_time_.get();
     }
     ssize_t read(char* bytes, size_t size) override {
-        const std::size_t from_head = head_.copy(bytes, size, head_used_);
-        head_used_ += from_head;
-        return static_cast<ssize_t>(from_head > 0 ? from_head : body_.read(bytes, size));
+        const std::size_t given = head_.copy(bytes, size, head_used_);
+        head_used_ += given;
+        return static_cast<ssize_t>(given);
     }
     ssize_t write(const char* bytes, size_t size) override {
         std::size_t done = 0;
@@ -83,7 +69,6 @@ private:
     const int fd_;
     const std::string head_;
     std::size_t head_used_ = 0;
-    BodySource body_;
     const ServerLimits& limits_;
     const StopTime& stop_time_;
     Clock::time_point write_deadline_;
@@ -98,12 +83,14 @@ public:
     void shutdown() override {}
 };
 
-void complete_headers(httplib::Response& response);
-
-/// The library's server, opened where its own threads and sockets would take over.
+/// The library's server, opened where its own threads and sockets would take over. One listens;
+/// every exchange has one of its own, so that its handlers know which exchange is theirs.
 class OpenedServer : public httplib::Server {
 public:
     using Accept = std::function<void(Socket)>;
+
+    /// For one exchange. An invalid socket would mean to the library that it is shutting down.
+    explicit OpenedServer(int served) { svr_sock_ = served; }
 
     explicit OpenedServer(Accept accept) : accept_(std::move(accept)) {
         new_task_queue = [] { return new InlineQueue; };
@@ -114,19 +101,10 @@ public:
             ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
             ::fcntl(fd, F_SETFD, FD_CLOEXEC);
         });
-        // Added by the library, wrong here: these have no body.
-        set_post_routing_handler([](const httplib::Request&, httplib::Response& response) {
-            if (response.status == 204 || response.status == 304) {
-                response.headers.erase("Content-Length");
-            }
-            complete_headers(response);
-        });
     }
 
     using httplib::Server::process_request;
-
-    [[nodiscard]] int listener() const { return svr_sock_; }
-    void listen_on(int fd) { svr_sock_ = fd; }
+    using httplib::Server::svr_sock_;
 
 private:
     bool process_and_close_socket(socket_t fd) override {
@@ -137,93 +115,83 @@ private:
     const Accept accept_;
 };
 
-/// Counts the body bytes of all requests; gives back its own at the end.
-class BodyShare {
+/// One request on its thread, from the vetted head to the last byte of the answer.
+class Exchange {
 public:
-    BodyShare(std::atomic<std::size_t>& total, std::size_t most) : total_(total), most_(most) {}
-    ~BodyShare() { total_ -= own_; }
-    BodyShare(const BodyShare&) = delete;
-    BodyShare& operator=(const BodyShare&) = delete;
+    Exchange(VettedConnection& connection, const HttpLibrary::Answer& answer,
+             const ServerLimits& limits, BodyBytes& all_bodies, const StopTime& stop_time)
+        : head_(connection.head),
+          answer_(answer),
+          body_(connection.socket.fd(), head_, std::move(connection.early_body), limits, all_bodies,
+                stop_time),
+          stream_(connection.socket.fd(), canonical_head(head_), limits, stop_time) {}
 
-    [[nodiscard]] bool grow(std::size_t bytes) {
-        own_ += bytes;
-        return (total_ += bytes) <= most_;
-    }
+    /// `stays`: whether the connection may serve another request.
+    [[nodiscard]] HttpLibrary::Outcome run(bool stays);
 
 private:
-    std::atomic<std::size_t>& total_;
-    const std::size_t most_;
-    std::size_t own_ = 0;
+    void respond(httplib::Response& out);
+    void complete_headers(httplib::Response& out);
+    void give(const Response& answer, httplib::Response& out);
+    void give_stream(const Response& answer, httplib::Response& out);
+
+    const Head& head_;
+    const HttpLibrary::Answer& answer_;
+    BodySource body_;
+    HeadStream stream_;
+    bool stays_ = false;
+    int status_ = 0;
+    bool ranges_ = false;  ///< the answer says itself what ranges it has
 };
 
-/// One request on its thread. The library calls handlers without a context, so this is found by
-/// the thread.
-struct Exchange {
-    const HttpLibrary::Answer& answer;
-    RequestStream& stream;
-    BodyShare& share;
-    bool stays;  ///< the connection, for another request
-    int status = 0;
-    bool ranges = false;  ///< the answer says itself what ranges it has
-};
-thread_local Exchange* current_exchange = nullptr;
-
-/// Once the answer is known: a body that was not read to its end would be taken for a request.
-void complete_headers(httplib::Response& response) {
-    Exchange& exchange = *current_exchange;
-    exchange.stays = exchange.stays && exchange.stream.body().is_complete();
-    if (!exchange.ranges) response.headers.erase("Accept-Ranges");
-    response.headers.erase("Connection");
-    response.headers.erase("Keep-Alive");
-    if (!exchange.stays) response.set_header("Connection", "close");
-}
-
-std::string read_body(Exchange& exchange, const ServerLimits& limits,
-                      const httplib::ContentReader& reader) {
-    std::string body;
-    bool too_large = false;
-    bool no_room = false;
-    const bool read = reader([&](const char* bytes, size_t size) {
-        // The announced length was vetted and chunks were counted; this is the last word.
-        too_large = body.size() + size > limits.body_bytes;
-        no_room = !exchange.share.grow(size);
-        if (too_large || no_room) return false;
-        body.append(bytes, size);
-        return true;
+HttpLibrary::Outcome Exchange::run(bool stays) {
+    stays_ = stays;
+    OpenedServer server(stream_.socket());
+    server.set_pre_routing_handler([this](const httplib::Request&, httplib::Response& out) {
+        respond(out);
+        return httplib::Server::HandlerResponse::Handled;
     });
-    if (no_room) throw overloaded();
-    if (too_large) throw Refusal(413, "body_too_large", "The body is too large.");
-    exchange.stream.body().check_complete();
-    if (!read) throw Refusal(400, "body_cut_off", "The body could not be read.");
-    return body;
+    server.set_post_routing_handler(
+        [this](const httplib::Request&, httplib::Response& out) { complete_headers(out); });
+    bool closed = false;
+    const bool done = server.process_request(stream_, false, closed, nullptr);
+    HttpLibrary::Outcome outcome;
+    outcome.answered = !stream_.write_failed();
+    outcome.reusable = done && outcome.answered && stays_;
+    if (outcome.reusable) outcome.rest = body_.rest();
+    outcome.bytes_received = body_.raw_bytes();
+    outcome.bytes_sent = stream_.sent();
+    outcome.status = status_;
+    return outcome;
 }
 
-/// One call of the provider for each of the stream.
-void give_stream(const Response& answer, httplib::Response& out) {
-    out.set_chunked_content_provider(
-        outgoing_media_type(answer),
-        [stream = answer.stream](size_t, httplib::DataSink& sink) noexcept {
-            try {
-                const auto write = [&](std::string_view bytes) {
-                    current_exchange->stream.start_answer();
-                    return sink.is_writable() && sink.write(bytes.data(), bytes.size());
-                };
-                if (stream(write)) return sink.is_writable();
-                sink.done();
-                return true;
-            } catch (...) {
-                return false;  // the stream breaks off, which its client sees
-            }
-        });
+void Exchange::respond(httplib::Response& out) {
+    const auto read_body = [this] { return body_.read(); };
+    const Response answer =
+        answer_(head_.has_body() ? HttpLibrary::ReadBody(read_body) : HttpLibrary::ReadBody());
+    stream_.start_answer();
+    give(answer, out);
+    status_ = out.status;
+}
+
+/// Once the answer is known. What the library adds of its own is wrong here: a 204 has no length,
+/// and a body that was not read to its end would be taken for a request.
+void Exchange::complete_headers(httplib::Response& out) {
+    if (out.status == 204 || out.status == 304) out.headers.erase("Content-Length");
+    stays_ = stays_ && body_.is_complete();
+    if (!ranges_) out.headers.erase("Accept-Ranges");
+    out.headers.erase("Connection");
+    out.headers.erase("Keep-Alive");
+    if (!stays_) out.set_header("Connection", "close");
 }
 
 /// Moves an answer into the library's. A body goes through a provider: set_content would copy it,
 /// and might compress it for minutes.
-void give(const Response& answer, httplib::Response& out) {
+void Exchange::give(const Response& answer, httplib::Response& out) {
     const bool has_status = answer.status >= 200 && answer.status <= 599;
     out.status = has_status ? answer.status : 500;
     for (const auto& [name, value] : outgoing_headers(answer)) {
-        if (name == "Accept-Ranges") current_exchange->ranges = true;
+        if (name == "Accept-Ranges") ranges_ = true;
         out.set_header(name, value);
     }
     const bool bodiless = out.status == 204 || out.status == 304;
@@ -238,11 +206,23 @@ void give(const Response& answer, httplib::Response& out) {
         });
 }
 
-void answer_through(const HttpLibrary::ReadBody& body, httplib::Response& out) {
-    const Response response = current_exchange->answer(body);
-    current_exchange->stream.start_answer();
-    give(response, out);
-    current_exchange->status = out.status;
+/// One call of the provider for each of the stream.
+void Exchange::give_stream(const Response& answer, httplib::Response& out) {
+    out.set_chunked_content_provider(
+        outgoing_media_type(answer),
+        [this, stream = answer.stream](size_t, httplib::DataSink& sink) noexcept {
+            try {
+                const auto write = [&](std::string_view bytes) {
+                    stream_.start_answer();
+                    return sink.is_writable() && sink.write(bytes.data(), bytes.size());
+                };
+                if (stream(write)) return sink.is_writable();
+                sink.done();
+                return true;
+            } catch (...) {
+                return false;  // the stream breaks off, which its client sees
+            }
+        });
 }
 
 /// Bound by name would mean either family; the loopback that every client tries is this one.
@@ -259,19 +239,13 @@ public:
     using Outcome = HttpLibrary::Outcome;
 
     Impl(const ServerLimits& limits, Accept accept)
-        : limits_(limits), server_([this, accept = std::move(accept)](Socket socket) {
+        : limits_(limits),
+          all_bodies_(limits.all_bodies_bytes),
+          server_([this, accept = std::move(accept)](Socket socket) {
               ++accepted_;
               prepare_accepted(socket.fd());
               accept(std::move(socket));
-          }) {
-        server_.Get("/", [](const httplib::Request&, httplib::Response& out) {
-            answer_through(nullptr, out);
-        });
-        server_.Post("/", [this](const httplib::Request&, httplib::Response& out,
-                                 const httplib::ContentReader& reader) {
-            answer_through([&] { return read_body(*current_exchange, limits_, reader); }, out);
-        });
-    }
+          }) {}
 
     int bind(const std::string& host, int port);
     bool accept_until_stopped();
@@ -282,10 +256,10 @@ public:
 
 private:
     const ServerLimits limits_;
+    BodyBytes all_bodies_;
     OpenedServer server_;
     StopTime stop_time_;
     std::atomic<bool> stopped_{false};
-    std::atomic<std::size_t> body_bytes_{0};
     std::atomic<std::uint64_t> accepted_{0};
     /// Our own hold on the listening socket: the library closes its descriptor after some errors
     /// of accept, and this one keeps the port and the kernel's queue until we listen again.
@@ -303,11 +277,11 @@ int HttpLibrary::Impl::bind(const std::string& host, int port) {
         port = -1;
     }
     // The library listens with a backlog of 5; listening again only changes that number.
-    if (port <= 0 || ::listen(server_.listener(), backlog) != 0) {
+    if (port <= 0 || ::listen(server_.svr_sock_, backlog) != 0) {
         const std::string cause = errno != 0 ? std::strerror(errno) : "not an address of this host";
         throw std::runtime_error("cannot listen on " + host + ": " + cause);
     }
-    listener_owner_ = Socket(::fcntl(server_.listener(), F_DUPFD_CLOEXEC, 0));
+    listener_owner_ = Socket(::fcntl(server_.svr_sock_, F_DUPFD_CLOEXEC, 0));
     if (!listener_owner_.is_open()) throw std::runtime_error("cannot listen: no descriptors left");
     listener_ = listener_owner_.fd();
     if (stopped_) stop();
@@ -325,17 +299,13 @@ bool HttpLibrary::Impl::accept_until_stopped() {
             server_.listen_after_bind();
         } catch (const std::exception&) {
             // Out of memory; the pause below may mend it. The library left its descriptor open.
-            ::close(server_.listener());
+            ::close(server_.svr_sock_);
         }
         if (stopped_) break;
         failures = accepted_ == accepted_before ? failures + 1 : 0;
-        const int fd = ::fcntl(listener_, F_DUPFD_CLOEXEC, 0);
-        if (failures > most_failures) {
-            if (fd >= 0) ::close(fd);
-            return false;
-        }
+        if (failures > most_failures) return false;
         std::this_thread::sleep_for(pause);
-        server_.listen_on(fd);
+        server_.svr_sock_ = ::fcntl(listener_, F_DUPFD_CLOEXEC, 0);
     }
     return true;
 }
@@ -348,21 +318,8 @@ void HttpLibrary::Impl::stop() {
 
 HttpLibrary::Outcome HttpLibrary::Impl::exchange(VettedConnection& connection,
                                                  const Answer& answer) {
-    RequestStream stream(connection, limits_, stop_time_);
-    BodyShare share(body_bytes_, limits_.all_bodies_bytes);
-    Exchange exchange{answer, stream, share, connection.head.keeps_alive && !stopped_};
-    current_exchange = &exchange;
-    bool closed = false;
-    const bool done = server_.process_request(stream, false, closed, nullptr);
-    current_exchange = nullptr;
-    Outcome outcome;
-    outcome.answered = !stream.write_failed();
-    outcome.reusable = done && outcome.answered && exchange.stays;
-    if (outcome.reusable) outcome.rest = stream.body().rest();
-    outcome.bytes_received = stream.body().raw_bytes();
-    outcome.bytes_sent = stream.sent();
-    outcome.status = exchange.status;
-    return outcome;
+    Exchange exchange(connection, answer, limits_, all_bodies_, stop_time_);
+    return exchange.run(connection.head.keeps_alive && !stopped_);
 }
 
 HttpLibrary::HttpLibrary(const ServerLimits& limits, Accept accept)

@@ -1,12 +1,12 @@
-// What is left to cpp-httplib: it binds and accepts, decodes bodies and writes answers. Threads,
-// deadlines, limits, routing and the client's head are ours. It never sees that head: it reads a
-// new one, made from what was vetted.
+// What is left to cpp-httplib: it binds and accepts, reads the request line and writes answers.
+// README.md says what is not, and why.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <string>
 
+#include "server/http/buffer.h"
 #include "server/http/connection_pool.h"
 #include "server/http/http.h"
 #include "server/http/socket.h"
@@ -17,8 +17,8 @@ class HttpLibrary {
 public:
     /// Called on the thread of `accept_until_stopped` with each connection.
     using Accept = std::function<void(Socket)>;
-    /// Reads and decodes the whole body. Throws: Refusal.
-    using ReadBody = std::function<std::string()>;
+    /// Reads the whole body. Throws: Refusal.
+    using ReadBody = std::function<Buffer()>;
     /// Makes the answer; `read_body` is empty if there is no body. Must not throw.
     using Answer = std::function<Response(const ReadBody& read_body)>;
 
@@ -42,7 +42,7 @@ public:
         std::size_t bytes_received = 0, bytes_sent = 0;
         int status = 0;
     };
-    /// Reads the body, calls `answer`, writes what it returns.
+    /// Calls `answer`, writes what it returns.
     [[nodiscard]] Outcome exchange(VettedConnection& connection, const Answer& answer);
 
 private:

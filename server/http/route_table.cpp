@@ -12,6 +12,10 @@ bool all_of(std::string_view text, std::string_view allowed) {
     return text.find_first_not_of(allowed) == std::string_view::npos;
 }
 
+/// No path that they match needs percent-encoding.
+constexpr std::string_view pattern_characters =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._:/{}";
+
 /// A ULID, or a UUID as RFC 9562 writes it.
 bool is_id(std::string_view text) {
     constexpr std::string_view hexadecimal = "0123456789abcdef";
@@ -66,6 +70,9 @@ RouteTable::RouteTable(std::vector<Route> routes) : routes_(std::move(routes)) {
     for (const Route& route : routes_) {
         const std::string name = route.method + " " + route.pattern;
         if (!route.handler) throw std::invalid_argument(name + ": no handler");
+        if (route.pattern.substr(0, 1) != "/" || !all_of(route.pattern, pattern_characters)) {
+            throw std::invalid_argument(name + ": this pattern would need percent-encoding");
+        }
         if (std::find(methods.begin(), methods.end(), route.method) == methods.end()) {
             throw std::invalid_argument(name + ": this method cannot have a route");
         }

@@ -17,11 +17,12 @@ struct RouteMatch {
 class RouteTable {
 public:
     /// Throws: std::invalid_argument if a route has no handler, takes a body although its method
-    ///         or its being express forbids it, or names a method that cannot be served.
+    ///         or its being express forbids it, names a method that cannot be served, or has a
+    ///         pattern that would need percent-encoding.
     explicit RouteTable(std::vector<Route> routes);
 
-    /// `path` is compared as it was sent: no pattern needs percent-encoding, so an encoded path is
-    /// never a second name for a route. HEAD finds GET's route.
+    /// `path` is compared as it was sent: an encoded path is never a second name for a route. HEAD
+    /// finds GET's route.
     [[nodiscard]] RouteMatch find(std::string_view method, std::string_view path) const;
 
     /// The methods of the path as an Allow header; empty if no route has the path.

@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t express_threads = 2;
 constexpr std::size_t most_queued_express = 64;
 
-std::vector<BodyPart> parts_of(const Head& head, std::string body, std::size_t most_parts) {
+std::vector<BodyPart> parts_of(const Head& head, std::string_view body, std::size_t most_parts) {
     const std::string_view content_type = head.request.header("content-type");
     const std::string media_type = media_type_of(content_type);
     if (media_type == "multipart/form-data") {
@@ -31,7 +31,7 @@ std::vector<BodyPart> parts_of(const Head& head, std::string body, std::size_t m
     }
     std::vector<BodyPart> parts(1);
     parts[0].media_type = media_type;
-    parts[0].bytes = std::move(body);
+    parts[0].bytes = body;
     return parts;
 }
 
@@ -55,7 +55,8 @@ private:
     [[nodiscard]] std::string refusal_bytes(const Refusal& refusal) const;
     [[nodiscard]] std::string request_id(const Request& request);
     void serve(VettedConnection connection);
-    [[nodiscard]] Response handle(Head& head, const HttpLibrary::ReadBody& read_body) const;
+    [[nodiscard]] Response handle(Head& head, const HttpLibrary::ReadBody& read_body,
+                                  Buffer& body) const;
     [[nodiscard]] Response failed(const Request& request, std::string_view what) const;
 
     const RouteTable routes_;
@@ -147,7 +148,9 @@ void Server::Impl::serve(VettedConnection connection) {
     auto refused = hooks_.admit ? hooks_.admit(request) : std::nullopt;
     if (refused) head.awaits_continue = false;
     auto outcome = library_.exchange(connection, [&](const HttpLibrary::ReadBody& read_body) {
-        Response response = refused ? std::move(*refused) : handle(head, read_body);
+        Buffer body;
+        Response response = refused ? std::move(*refused) : handle(head, read_body, body);
+        request.body.clear();  // its parts are of `body`
         response.headers.insert(response.headers.end(), request.answer_headers.begin(),
                                 request.answer_headers.end());
         return response;
@@ -163,11 +166,14 @@ void Server::Impl::serve(VettedConnection connection) {
         gate_->linger(std::move(connection.socket));
 }
 
-Response Server::Impl::handle(Head& head, const HttpLibrary::ReadBody& read_body) const {
+Response Server::Impl::handle(Head& head, const HttpLibrary::ReadBody& read_body,
+                              Buffer& body) const {
     try {
-        if (read_body) head.request.body = parts_of(head, read_body(), limits_.body_parts);
+        if (read_body) {
+            body = read_body();
+            head.request.body = parts_of(head, body.view(), limits_.body_parts);
+        }
         Response response = head.route->handler(head.request);
-        head.request.body.clear();
         if (response.stream && !head.takes_chunks)
             throw Refusal(505, "version_not_supported", "A stream needs HTTP/1.1.");
         return response;

@@ -2,8 +2,12 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <set>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "server/jobs/asset_store.h"
 #include "server/jobs/blob_store.h"
@@ -14,8 +18,9 @@ namespace lastflat::server {
 
 /// What is asked for, and by whom.
 struct Submission {
-    std::string model;    ///< the bytes; empty if `asset` is given
-    std::string asset;    ///< digest of an asset
+    std::string_view model;  ///< the bytes, of the request's body or of `made`; empty with `asset`
+    std::shared_ptr<const std::string> made;  ///< a model that did not come as it is
+    std::string asset;                        ///< digest of an asset
     std::string request;  ///< the constraint JSON, valid; may be empty: every default
     std::string tag;
     std::optional<JobWebhook> webhook;
@@ -25,6 +30,11 @@ struct Submission {
     std::string batch;            ///< id of the batch it came in; empty: alone
     std::string idempotency_key;  ///< empty: none
     std::string cancel_after;     ///< a duration as it was written; empty: never
+
+    void make_model(std::string bytes) {
+        made = std::make_shared<const std::string>(std::move(bytes));
+        model = *made;
+    }
 };
 
 struct Submitted {

@@ -29,7 +29,7 @@ Response asset_response(int status, const Asset& asset) {
 }
 
 /// `Content-Digest: sha-256=:BASE64:` (RFC 9530) has to be that of the body.
-void check_digest(const Request& request, const std::string& bytes) {
+void check_digest(const Request& request, std::string_view bytes) {
     constexpr std::string_view algorithm = "sha-256=:";
     const std::string_view header = request.header("content-digest");
     const std::size_t begin = header.find(algorithm);

@@ -28,7 +28,7 @@ std::size_t part_for(std::string uri, const std::vector<const http::BodyPart*>& 
 
 }  // namespace
 
-std::string with_buffers_inside(const std::string& gltf,
+std::string with_buffers_inside(std::string_view gltf,
                                 const std::vector<const http::BodyPart*>& buffers) {
     if (gltf.find_first_not_of(" \t\r\n") == std::string::npos ||
         gltf[gltf.find_first_not_of(" \t\r\n")] != '{')

@@ -13,7 +13,7 @@ namespace lastflat::server {
 /// Throws: Refusal if the model is no glTF document, a buffer of it has no part, or a part belongs
 /// to
 ///         no buffer; api::InvalidRequest if the document cannot be read.
-[[nodiscard]] std::string with_buffers_inside(const std::string& gltf,
+[[nodiscard]] std::string with_buffers_inside(std::string_view gltf,
                                               const std::vector<const http::BodyPart*>& buffers);
 
 }  // namespace lastflat::server

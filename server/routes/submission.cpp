@@ -59,9 +59,8 @@ Submission from_parts(const http::Request& request) {
     Submission submission;
     if (!buffers.empty() && model == nullptr)
         refuse(400, "part_unused", "an asset is one file: it has no buffers beside it");
-    if (model != nullptr)
-        submission.model =
-            buffers.empty() ? model->bytes : with_buffers_inside(model->bytes, buffers);
+    if (model != nullptr) submission.model = model->bytes;
+    if (!buffers.empty()) submission.make_model(with_buffers_inside(model->bytes, buffers));
     if (asset != nullptr) submission.asset = asset->bytes;
     if (constraints != nullptr) submission.request = constraints->bytes;
     return checked(std::move(submission));
@@ -105,7 +104,7 @@ std::string idempotency_key(const http::Request& request) {
 Submission read_json_submission(std::string_view text) {
     api::JsonSubmission json = api::json_submission_from_json(text);
     Submission submission;
-    submission.model = std::move(json.model);
+    submission.make_model(std::move(json.model));
     submission.asset = std::move(json.asset_id);
     submission.request = std::move(json.request_text);
     if (json.webhook) {

@@ -1,6 +1,8 @@
 // The three ways to send a job, read into one.
 #pragma once
 
+#include <string_view>
+
 #include "server/http/http.h"
 #include "server/jobs/job_intake.h"
 
@@ -9,7 +11,8 @@ namespace lastflat::server {
 /// multipart/form-data with the parts `model` (and the `buffers` of a glTF, the `mtl` of an OBJ) or
 /// `asset_id` and, optional, `request`;
 /// application/json with the model in base64 or an asset's id; or the model's bytes alone, its
-/// constraints in the header `X-Flatten-Constraints` (base64url) or absent.
+/// constraints in the header `X-Flatten-Constraints` (base64url) or absent. Lasts as long as the
+/// request's body.
 /// Throws: Refusal, api::InvalidRequest.
 [[nodiscard]] Submission read_submission(const http::Request& request);
 

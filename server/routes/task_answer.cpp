@@ -9,8 +9,8 @@ namespace lastflat::server {
 using http::Response;
 using Json = nlohmann::ordered_json;
 
-Response TaskAnswers::answer(const http::Request& request, Task task, const std::string& model,
-                             const std::string& text) const {
+Response TaskAnswers::answer(const http::Request& request, Task task, std::string_view model,
+                             std::string_view text) const {
     const WaitingSeat seat(seats_, request);
     if (!seat.is_taken())
         refuse(503, "validations_full",

@@ -15,7 +15,7 @@ public:
     /// The task's report, or its problem. Takes a seat to wait in.
     /// Throws: Refusal (422, 500, 503).
     [[nodiscard]] http::Response answer(const http::Request& request, Task task,
-                                        const std::string& model, const std::string& text) const;
+                                        std::string_view model, std::string_view text) const;
 
 private:
     SeatsByKey& seats_;

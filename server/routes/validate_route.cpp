@@ -12,7 +12,7 @@ http::Response validate(const ValidateServices& service, const http::Request& re
     if (!submission.asset.empty()) {
         if (!service.assets.find(request.principal, submission.asset))
             refuse(422, "asset_not_found", "there is no asset " + submission.asset.substr(0, 80));
-        submission.model = service.blobs.read(submission.asset);
+        submission.make_model(service.blobs.read(submission.asset));
     }
     return service.tasks.answer(request, Task::inspect, submission.model, submission.request);
 }

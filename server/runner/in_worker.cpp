@@ -38,8 +38,8 @@ RunJob run_jobs_in_workers(const ProcessLimits& limits, const BlobStore& blobs) 
 RunTask run_tasks_in_workers(const ProcessLimits& limits, const std::filesystem::path& work,
                              std::function<bool()> ends) {
     const auto slots = std::make_shared<std::counting_semaphore<>>(most_tasks);
-    return [slots, work, ends = std::move(ends), limits](Task task, const std::string& model,
-                                                         const std::string& request) {
+    return [slots, work, ends = std::move(ends), limits](Task task, std::string_view model,
+                                                         std::string_view request) {
         ProcessEnd end;
         end.kind = ProcessEnd::Kind::stopped;
         while (!slots->try_acquire_for(look_every)) {

@@ -10,7 +10,7 @@ namespace lastflat::server {
 
 /// A short task in a worker of its own: an inspection, or a mapping.
 using RunTask =
-    std::function<ProcessEnd(Task task, const std::string& model, const std::string& request)>;
+    std::function<ProcessEnd(Task task, std::string_view model, std::string_view request)>;
 
 /// Few at once, others wait: each may use as much as a job. `work`: a folder for the models.
 /// Once `ends` says so they end at once, as stopped.

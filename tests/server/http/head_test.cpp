@@ -275,6 +275,25 @@ TEST_SUITE("server/http/head") {
         CHECK(vetted(post_with("Transfer-Encoding: Chunked\r\n")).chunked);
     }
 
+    TEST_CASE("of a head, only what was vetted goes on to the library") {
+        const std::string path = "/v1/jobs/" + some_id;
+        const std::string fields =
+            " HTTP/1.0\r\nHost: a\r\nConnection: keep-alive\r\nRange: bytes=0-1\r\n"
+            "Accept-Encoding: gzip\r\nContent-Type: multipart/form-data; boundary=B\r\n";
+        for (const std::string method : {"GET", "HEAD", "DELETE"}) {
+            CAPTURE(method);
+            CHECK(canonical_head(vetted(method + " " + path + "?a=b?c" + fields + "\r\n")) ==
+                  method + " " + path + " HTTP/1.1\r\n\r\n");
+        }
+        CHECK(canonical_head(vetted("POST /v1/jobs" + fields + "Content-Length: 5\r\n\r\n")) ==
+              "POST /v1/jobs HTTP/1.1\r\n\r\n");
+        CHECK(canonical_head(
+                  vetted(post_with("Transfer-Encoding: chunked\r\nExpect: 100-CONTINUE\r\n"))) ==
+              "POST /v1/jobs HTTP/1.1\r\nExpect: 100-continue\r\n\r\n");
+        CHECK(canonical_head(vetted(post_with("Expect: 100-continue\r\n"))) ==
+              "POST /v1/jobs HTTP/1.1\r\n\r\n");  // there is no body to ask for
+    }
+
     TEST_CASE("a refused HEAD is answered without a body") {
         for (const std::string method : {"HEAD", "GET"}) {
             try {

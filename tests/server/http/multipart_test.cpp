@@ -30,9 +30,14 @@ std::string verdict(const std::string& type, const std::string& body) {
     }
 }
 
+/// The only part of a body that is gone: its bytes are checked here.
 BodyPart only_part(const std::string& headers, const std::string& bytes) {
-    const auto parts = parse_multipart(plain_type, part(headers, bytes) + "--XX--\r\n", 3);
+    const std::string body = part(headers, bytes) + "--XX--\r\n";
+    const auto parts = parse_multipart(plain_type, body, 3);
     REQUIRE(parts.size() == 1);
+    CHECK(parts[0].bytes == bytes);
+    CHECK(parts[0].bytes.data() >= body.data());
+    CHECK(parts[0].bytes.data() < body.data() + body.size());
     return parts[0];
 }
 
@@ -71,8 +76,8 @@ TEST_SUITE("server/http/multipart") {
         CHECK(
             only_part(named("m") + "; filename*=UTF-8''" + std::string(3000, 'a'), "x").file_name ==
             "");
-        CHECK(only_part(named("m") + "\r\nContent-Transfer-Encoding: binary\r\nX: y", "x").bytes ==
-              "x");
+        CHECK(only_part(named("m") + "\r\nContent-Transfer-Encoding: binary\r\nX: y", "x").name ==
+              "m");
     }
 
     TEST_CASE("every way to write the boundary is read") {
@@ -99,8 +104,8 @@ TEST_SUITE("server/http/multipart") {
     TEST_CASE("padding after a boundary is allowed, other text makes it content") {
         CHECK(verdict(plain_type, "--XX \t\r\n" + named("m") + "\r\n\r\nx\r\n--XX-- \r\n") ==
               "1 parts");
-        CHECK(only_part(named("m"), "a\r\n--XXY\r\nb").bytes == "a\r\n--XXY\r\nb");
-        CHECK(only_part(named("m"), "a\r\n--XX--Y\r\nb").bytes == "a\r\n--XX--Y\r\nb");
+        (void)only_part(named("m"), "a\r\n--XXY\r\nb");
+        (void)only_part(named("m"), "a\r\n--XX--Y\r\nb");
     }
 
     TEST_CASE("a form without parts is empty, not broken") {

@@ -37,5 +37,9 @@ TEST_SUITE("server/http/route_table") {
         CHECK_THROWS_AS(RouteTable({{"POST", "/", nothing, true, true}}), std::invalid_argument);
         CHECK_THROWS_AS(RouteTable({{"POST", "/", Handler()}}), std::invalid_argument);
         CHECK_THROWS_AS(RouteTable({{"HEAD", "/", nothing}}), std::invalid_argument);
+        for (const char* pattern : {"", "a", "/a b", "/a?b", "/%61", "/a#b", "/\xC3\xA4"}) {
+            CAPTURE(pattern);
+            CHECK_THROWS_AS(RouteTable({{"GET", pattern, nothing}}), std::invalid_argument);
+        }
     }
 }

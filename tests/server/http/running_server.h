@@ -122,7 +122,8 @@ private:
     static Response echo(const Request& request) {
         std::string text = request.method + " " + request.path + " " + request.remote_address;
         for (const BodyPart& part : request.body) {
-            text += "\n" + part.name + "|" + part.media_type + "|" + part.bytes;
+            text += "\n" + part.name + "|" + part.media_type + "|";
+            text += part.bytes;
         }
         return text_response(text);
     }
@@ -136,6 +137,15 @@ private:
     }
 
     std::vector<Route> routes() {
+        std::vector<Route> all = plain_routes();
+        for (const char* method : {"GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS"}) {
+            const bool takes_body = std::string_view(method).front() == 'P';
+            all.push_back({method, "/v1/..//{id}:any.", echo, takes_body});
+        }
+        return all;
+    }
+
+    std::vector<Route> plain_routes() {
         return {
             {"GET", "/healthz", [](const Request&) { return text_response("ok"); }, false, true},
             {"GET", "/echo", echo},

@@ -59,6 +59,42 @@ TEST_SUITE("server/http/server") {
         }
     }
 
+    TEST_CASE("every method reaches its handler, with and without a body, by any vetted path") {
+        RunningServer server(small_limits());
+        const std::string path = "/v1/..//01ARZ3NDEKTSV4RRFFQ69G5FAV:any.";
+        const std::string head =
+            " " + path + "?a=%3F?b HTTP/1.1\r\nHost: a\r\nConnection: close\r\n";
+        for (const std::string method : {"GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS"}) {
+            CAPTURE(method);
+            const std::string answer = ask(server.port(), method + head + "\r\n");
+            CHECK(status_of(answer) == 200);
+            CHECK(body_of(answer) == method + " " + path + " 127.0.0.1");
+        }
+        const std::string headed = ask(server.port(), "HEAD" + head + "\r\n");
+        CHECK(status_of(headed) == 200);
+        CHECK(body_of(headed) == "");
+        for (const std::string method : {"POST", "PUT", "PATCH"}) {
+            for (const std::string body :
+                 {"Content-Length: 2\r\n\r\nab",
+                  "Transfer-Encoding: chunked\r\n\r\n2\r\nab\r\n0\r\n\r\n"}) {
+                CAPTURE(method);
+                CAPTURE(body);
+                CHECK(body_of(ask(server.port(), method + head + body)) ==
+                      method + " " + path + " 127.0.0.1\n||ab");
+            }
+        }
+        for (const std::string method : {"TRACE", "CONNECT", "PRI", "BREW"}) {
+            CAPTURE(method);
+            CHECK(status_of(ask(server.port(), method + head + "\r\n")) == 501);
+        }
+        for (const std::string odd : {"*", "/v1/../echo", "/%65cho", "/echo%00", "/echo/", "//echo",
+                                      "/echo%3Fa", "/echo;a", "/echo%u0041"}) {
+            CAPTURE(odd);
+            const int status = status_of(ask(server.port(), get(odd)));
+            CHECK((status == 400 || status == 404));
+        }
+    }
+
     TEST_CASE("requests that break a rule are refused with its code") {
         RunningServer server(small_limits());
         const std::string form_type =

@@ -10,7 +10,7 @@
 namespace lastflat::server {
 namespace {
 
-http::BodyPart part(const char* name, const std::string& bytes, const char* file_name = "") {
+http::BodyPart part(const char* name, std::string_view bytes, const char* file_name = "") {
     return {name, file_name, "", bytes};
 }
 
