@@ -4,7 +4,6 @@
 #include <string>
 #include <string_view>
 
-#include "api/webhook_request.h"
 #include "core/request.h"
 
 namespace lastflat::api {
@@ -33,20 +32,5 @@ struct RequestLimits {
                                                        const RequestLimits& limits = {});
 /// The same from a field of a document; pointers begin at that document.
 [[nodiscard]] FlattenRequest read_flatten_request(const Field& field, const RequestLimits& limits);
-
-/// A request sent as JSON alone: the model in base64 beside the constraints.
-struct JsonSubmission {
-    std::string model;     ///< decoded; empty if `asset_id` is given
-    std::string asset_id;  ///< of a model that was sent before
-    FlattenRequest request;
-    std::string request_text;  ///< its JSON; empty if absent
-    std::optional<WebhookRequest> webhook;
-};
-
-/// Reads {"model": {"data": base64} or {"asset_id": id}, "request": {...}, "webhook": {...}};
-/// pointers begin at this document.
-/// Throws: InvalidRequest naming the field.
-[[nodiscard]] JsonSubmission json_submission_from_json(std::string_view text,
-                                                       const RequestLimits& limits = {});
 
 }  // namespace lastflat::api

@@ -1,39 +1,11 @@
 #include "api/job.h"
 
 #include <cmath>
-#include <cstdio>
-#include <ctime>
-#include <nlohmann/json.hpp>
+
+#include "api/json.h"
+#include "api/timestamp.h"
 
 namespace lastflat::api {
-
-std::string rfc3339(std::int64_t milliseconds) {
-    const auto seconds = static_cast<std::time_t>(milliseconds / 1000);
-    std::tm utc{};
-    gmtime_r(&seconds, &utc);
-    char text[64];
-    std::snprintf(text, sizeof text, "%04d-%02d-%02dT%02d:%02d:%02d.%03dZ", utc.tm_year + 1900,
-                  utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec,
-                  static_cast<int>(milliseconds % 1000));
-    return text;
-}
-
-std::optional<std::int64_t> rfc3339_ms(const std::string& text) {
-    std::tm utc{};
-    const char* rest = strptime(text.c_str(), "%Y-%m-%dT%H:%M:%S", &utc);
-    if (rest == nullptr) return std::nullopt;
-    std::int64_t milliseconds = 0;
-    if (*rest == '.') {
-        int digits = 0;
-        for (++rest; *rest >= '0' && *rest <= '9'; ++rest, ++digits) {
-            if (digits < 3) milliseconds = 10 * milliseconds + (*rest - '0');
-        }
-        for (; digits > 0 && digits < 3; ++digits) milliseconds *= 10;
-    }
-    if (std::string_view(rest) != "Z") return std::nullopt;
-    return std::int64_t{timegm(&utc)} * 1000 + milliseconds;
-}
-
 namespace {
 
 double tenths(double seconds) {
@@ -42,8 +14,9 @@ double tenths(double seconds) {
 
 }  // namespace
 
-std::string to_json(const Job& job) {
-    nlohmann::ordered_json json{{"id", job.id}, {"state", job.state}};
+Json json_of(const Job& job) {
+    const std::string_view state = word_of(job_states, job.state);
+    Json json{{"id", job.id}, {"state", state}};
     if (!job.reason.empty()) json["reason"] = job.reason;
     if (!job.tag.empty()) json["tag"] = job.tag;
     if (!job.batch.empty()) json["batch"] = job.batch;
@@ -57,18 +30,35 @@ std::string to_json(const Job& job) {
     time("result_expires_at", job.result_expires_ms);
     time("expires_at", job.expires_ms);
     json["attempt"] = job.attempt;
-    json["progress"] = {{"stage", job.stage}, {"percent", job.percent}};
+    json["progress"] = {{"stage", job.stage.empty() ? state : job.stage}, {"percent", job.percent}};
     if (job.remaining_s) json["progress"]["remaining_s"] = tenths(*job.remaining_s);
     if (job.queue_position) json["queue"] = {{"position", *job.queue_position}};
     if (job.queue_position && job.queue_s) json["queue"]["eta_s"] = tenths(*job.queue_s);
-    if (!job.error.empty()) json["error"] = nlohmann::ordered_json::parse(job.error);
+    if (job.error) json["error"] = json_of(*job.error);
     const std::string self = "/v1/jobs/" + job.id;
     json["links"] = {{"self", self},
                      {"result", self + "/result"},
                      {"metrics", self + "/metrics"},
                      {"events", self + "/events"},
                      {"cancel", self + "/cancel"}};
-    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return json;
+}
+
+std::string to_json(const Job& job) {
+    return text_of(json_of(job));
+}
+
+std::string to_json(const Job& job, std::string_view result) {
+    std::string text = to_json(job);
+    text.back() = ',';  // a result is large: it is not read again
+    text.append("\"result\":").append(result).append("}");
+    return text;
+}
+
+std::string to_json(const JobList& list) {
+    Json json{{"items", json_of(list.items)}};
+    if (!list.next_cursor.empty()) json["next_cursor"] = list.next_cursor;
+    return text_of(json);
 }
 
 }  // namespace lastflat::api

@@ -4,33 +4,51 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/problem.h"
+#include "api/words.h"
 
 namespace lastflat::api {
 
+enum class JobState { queued, running, canceling, succeeded, failed, canceled };
+inline constexpr Word<JobState> job_states[] = {
+    {"queued", JobState::queued},       {"running", JobState::running},
+    {"canceling", JobState::canceling}, {"succeeded", JobState::succeeded},
+    {"failed", JobState::failed},       {"canceled", JobState::canceled}};
+
+[[nodiscard]] constexpr bool is_final(JobState state) {
+    return state == JobState::succeeded || state == JobState::failed || state == JobState::canceled;
+}
+
 struct Job {
     std::string id;
-    std::string state;   ///< queued, running, canceling, succeeded, failed, canceled
+    JobState state = JobState::queued;
     std::string reason;  ///< why it was canceled: client, deadline
     std::string tag, batch;
     std::int64_t created_ms = 0;  ///< since 1970
     std::optional<std::int64_t> started_ms, finished_ms, cancel_at_ms;
     std::optional<std::int64_t> result_expires_ms, expires_ms;
     int attempt = 0;    ///< how many times it was begun
-    std::string stage;  ///< of the flattening, while it runs
+    std::string stage;  ///< of the flattening, while it runs; empty: its state
     int percent = 0;
     std::optional<double> remaining_s;          ///< about, from jobs like it
     std::optional<std::size_t> queue_position;  ///< 1: next
     std::optional<double> queue_s;              ///< until it begins, about
-    std::string error;                          ///< of a failed job: its problem, JSON
+    std::optional<Problem> error;               ///< of a failed job
 };
 
-/// The body of GET /v1/jobs/{id}. Times are RFC 3339 in UTC.
+/// The body of GET /v1/jobs/{id}.
 [[nodiscard]] std::string to_json(const Job& job);
 
-/// "2024-02-29T23:59:59.123Z".
-[[nodiscard]] std::string rfc3339(std::int64_t milliseconds);
+/// With the job's result, a JSON document, as its last member.
+[[nodiscard]] std::string to_json(const Job& job, std::string_view result);
 
-/// The inverse, for whole seconds or fractions of them, in UTC; nothing if it is no such time.
-[[nodiscard]] std::optional<std::int64_t> rfc3339_ms(const std::string& text);
+struct JobList {
+    std::vector<Job> items;
+    std::string next_cursor;  ///< empty: this is the end of the list
+};
+[[nodiscard]] std::string to_json(const JobList& list);
 
 }  // namespace lastflat::api

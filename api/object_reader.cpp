@@ -114,17 +114,6 @@ std::vector<std::pair<std::string, Field>> Field::entries(std::size_t most) cons
     return fields;
 }
 
-std::size_t Field::choice(const std::vector<std::string>& words) const {
-    if (value.is_string()) {
-        for (std::size_t i = 0; i < words.size(); ++i) {
-            if (value.get_ref<const std::string&>() == words[i]) return i;
-        }
-    }
-    std::string list;
-    for (const auto& word : words) list += (list.empty() ? "" : ", ") + word;
-    fail("must be one of: " + list);
-}
-
 ObjectReader::ObjectReader(Field field) : field_(std::move(field)) {
     if (!field_.value.is_object()) field_.fail("must be an object");
 }

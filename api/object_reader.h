@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "api/refusal.h"
 #include "api/words.h"
 
 namespace lastflat::api {
@@ -16,15 +16,15 @@ namespace lastflat::api {
 constexpr double far_away = 1e6;
 
 /// The request breaks the contract. `pointer` (RFC 6901) names the field; empty: the whole
-/// document.
-class InvalidRequest : public std::runtime_error {
+/// document. `what()` does not repeat it.
+class InvalidRequest : public Refusal {
 public:
-    InvalidRequest(std::string pointer, const std::string& detail)
-        : std::runtime_error(detail), pointer_(std::move(pointer)) {}
-    [[nodiscard]] const std::string& pointer() const { return pointer_; }
-
-private:
-    std::string pointer_;
+    InvalidRequest(const std::string& pointer, const std::string& detail)
+        : Refusal({"invalid_request", (pointer.empty() ? "the request" : pointer) + ": " + detail},
+                  detail) {
+        problem_.pointer = pointer;
+    }
+    [[nodiscard]] const std::string& pointer() const { return *problem_.pointer; }
 };
 
 /// A document of at most `depth` levels and 4 million values, without repeated names.
@@ -56,8 +56,6 @@ struct Field {
         }
         fail("must be one of: " + listed(table));
     }
-    /// One of the listed words; returns its place in the list.
-    [[nodiscard]] std::size_t choice(const std::vector<std::string>& words) const;
 };
 
 /// Reads the members of an object by name.

@@ -1,22 +1,15 @@
 #include "api/problem.h"
 
-#include "api/problem_json.h"
+#include "api/json.h"
 
 namespace lastflat::api {
 
-nlohmann::ordered_json problem_json(const Problem& problem) {
-    std::string title = problem.title;
-    if (title.empty()) {
-        title = problem.code;
-        for (char& c : title) {
-            if (c == '_') c = ' ';
-        }
-    }
-    nlohmann::ordered_json json{{"type", "urn:lastflat:problem:" + problem.code},
-                                {"title", title},
-                                {"status", problem.status},
-                                {"detail", problem.detail},
-                                {"code", problem.code}};
+Json json_of(const Problem& problem) {
+    Json json{{"type", "urn:lastflat:problem:" + std::string(problem.code.word())},
+              {"title", problem.code.title()},
+              {"status", problem.status},
+              {"detail", problem.detail},
+              {"code", problem.code.word()}};
     if (problem.pointer) json["pointer"] = *problem.pointer;
     if (problem.position) json["position"] = *problem.position;
     if (!problem.triangles.empty()) json["triangles"] = problem.triangles;
@@ -30,7 +23,32 @@ nlohmann::ordered_json problem_json(const Problem& problem) {
 }
 
 std::string to_json(const Problem& problem) {
-    return problem_json(problem).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return text_of(json_of(problem));
+}
+
+Problem problem_from_json(std::string_view text) try {
+    const Json json = Json::parse(text);
+    Problem problem(ProblemCode::read(json.at("code").get<std::string>()), json.at("detail"));
+    json.at("status").get_to(problem.status);
+    if (json.contains("pointer")) problem.pointer = json["pointer"];
+    if (json.contains("position")) problem.position = json["position"];
+    if (json.contains("triangles")) json["triangles"].get_to(problem.triangles);
+    if (!json.contains("conflict")) return problem;
+    for (const Json& member : json["conflict"]) {
+        problem.conflict.push_back(
+            {member.at("pointer"), member.at("title"), member.at("off_mm"), member.at("position")});
+    }
+    return problem;
+} catch (const std::exception& error) {
+    throw std::runtime_error(std::string("a stored problem cannot be read: ") + error.what());
+}
+
+Problem without_result(const Problem& problem) {
+    Problem answer(problem.code, "the job failed: " + problem.detail);
+    answer.status = 409;
+    answer.pointer = problem.pointer;
+    answer.position = problem.position;
+    return answer;
 }
 
 }  // namespace lastflat::api

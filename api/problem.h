@@ -5,7 +5,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "api/problem_catalogue.h"
 
 namespace lastflat::api {
 
@@ -18,17 +21,27 @@ struct ConflictMember {
 };
 
 struct Problem {
-    int status = 500;
-    std::string code;                               ///< stable, for programs
-    std::string title;                              ///< the code in words; empty: made from it
-    std::string detail;                             ///< what, where, and the mend, for people
-    std::optional<std::string> pointer;             ///< the field of the request at fault
-    std::optional<std::array<double, 3>> position;  ///< the place on the last, mm
+    Problem(ProblemCode of, std::string what) : code(of), detail(std::move(what)) {}
+
+    ProblemCode code;
+    std::string detail;  ///< what, where, and the mend, for people
+    int status = code.status();
+    std::optional<std::string> pointer{};                  ///< the field of the request at fault
+    std::optional<std::array<double, 3>> position{};       ///< the place on the last, mm
     std::vector<std::array<std::int32_t, 3>> triangles{};  ///< at fault, by vertex ids of the file
     std::vector<ConflictMember> conflict{};
+
+    /// Whether the caller can mend it, or the program is at fault.
+    [[nodiscard]] bool is_bad_input() const { return status < 500; }
 };
 
 /// application/problem+json.
 [[nodiscard]] std::string to_json(const Problem& problem);
+
+/// Reads what `to_json` wrote. Throws: std::runtime_error if it did not.
+[[nodiscard]] Problem problem_from_json(std::string_view text);
+
+/// What whoever asks for the result of a job that failed with `problem` is told.
+[[nodiscard]] Problem without_result(const Problem& problem);
 
 }  // namespace lastflat::api

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <map>
 
+#include "api/job.h"
 #include "server/cli/commands.h"
 #include "server/cli/operator_commands.h"
 #include "server/cli/serve.h"
@@ -140,9 +141,9 @@ std::map<const CLI::App*, std::function<int()>> add_operator_commands(CLI::App& 
         return server::list_keys_command(data);
     };
     auto* jobs = with_data(app.add_subcommand("jobs", "The newest jobs, one a line"));
-    jobs->add_option("--state", a.state, "Only of this state")
-        ->check(
-            CLI::IsMember({"queued", "running", "canceling", "succeeded", "failed", "canceled"}));
+    std::vector<std::string> states;
+    for (const auto& state : api::job_states) states.emplace_back(state.word);
+    jobs->add_option("--state", a.state, "Only of this state")->check(CLI::IsMember(states));
     jobs->add_option("--limit", a.limit, "How many")->check(CLI::Range(1, 100000));
     commands[jobs] = [&] { return server::jobs_command(data, a.state, a.limit); };
     commands[with_data(app.add_subcommand("doctor", "Check every row and every blob"))] = [&] {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "api/job.h"
+#include "api/timestamp.h"
 #include "server/storage/blob_folder.h"
 #include "server/storage/sqlite_accounts.h"
 #include "server/storage/sqlite_store.h"
@@ -85,7 +85,7 @@ private:
         if (!job.result.empty()) check_blob(job, "result", job.result);
         if (is_final(job.state) != job.finished_ms.has_value())
             complain("job " + job.id + ": its state and its end contradict each other");
-        if ((job.state == JobState::failed) == job.error.empty())
+        if ((job.state == JobState::failed) != job.error.has_value())
             complain("job " + job.id + ": its state and its error contradict each other");
         if (job.attempt > most_attempts) complain("job " + job.id + ": too many attempts");
         const auto changes = store_.history(job.id, 0);
@@ -133,7 +133,7 @@ int jobs_command(const std::string& data, const std::string& state, int limit) {
     SqliteDatabase database(database_of(data));
     SqliteStore store(database, Retention{});
     JobFilter filter;
-    if (!state.empty()) filter.state = job_state_of(state);
+    if (!state.empty()) filter.state = api::value_of(api::job_states, state);
     filter.limit = static_cast<std::size_t>(limit);
     for (const JobRecord& job : store.list("", filter).jobs) {
         std::cout << job.id << "  " << api::rfc3339(job.created_ms) << "  " << name(job.state)

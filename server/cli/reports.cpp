@@ -27,13 +27,6 @@ http::AnswerLog answer_log(Metrics& metrics) {
     };
 }
 
-http::FailureLog failure_log() {
-    return [](const http::Request& request, std::string_view what) {
-        log_event("request_failed",
-                  {{"request", request.id}, {"path", request.path}, {"why", what}});
-    };
-}
-
 RunLog run_log(Metrics& metrics, Estimate& estimate) {
     return [&metrics, &estimate](const RunReport& run) {
         metrics.count("lastflat_jobs_ended_total", {{"outcome", run.outcome}});

@@ -11,8 +11,6 @@ namespace lastflat::server {
 
 /// Of every answer. All that is referred to must outlive what is returned.
 [[nodiscard]] http::AnswerLog answer_log(Metrics& metrics);
-/// Of every exception of a handler.
-[[nodiscard]] http::FailureLog failure_log();
 /// Of every end of a run; successes are remembered for the estimate.
 [[nodiscard]] RunLog run_log(Metrics& metrics, Estimate& estimate);
 [[nodiscard]] SqliteClock sqlite_clock(Metrics& metrics);

@@ -77,11 +77,7 @@ http::ServerLimits admin_limits() {
 
 http::ServerHooks hooks(Metrics& metrics) {
     http::ServerHooks hooks;
-    hooks.problem = [](int status, std::string_view code, std::string_view detail) {
-        return problem_response(
-            {status, std::string(code), "", std::string(detail), std::nullopt, std::nullopt});
-    };
-    hooks.failed = failure_log();
+    hooks.problem = answer_to;
     hooks.answered = answer_log(metrics);
     return hooks;
 }
@@ -109,7 +105,7 @@ public:
             });
         }
         http::ServerHooks with_access = hooks(metrics_);
-        with_access.admit = [this](http::Request& request) { return access_.admit(request); };
+        with_access.admit = [this](http::Request& request) { access_.admit(request); };
         with_access.origin_headers = [this](std::string_view origin) {
             return access_.origin_headers(origin);
         };
@@ -162,7 +158,6 @@ private:
         add(webhook_routes(webhooks_, settings_.webhooks != WebhookTargets::none));
         add({health_route(admin_services_)});
         add(document_routes());
-        add(preflight_routes(routes));
         return routes;
     }
 

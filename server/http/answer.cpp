@@ -89,25 +89,20 @@ std::string answer_bytes(const Response& response, bool without_body) {
     return bytes;
 }
 
-Refusal overloaded() {
-    return Refusal(503, "server_busy", "The server has all the work it can take. Try again later.")
+api::Refusal overloaded() {
+    return api::Refusal("server_busy", "The server has all the work it can take. Try again later.")
         .with_header("Retry-After", "5");
 }
 
-Response answer_to(const Refusal& refusal, const ProblemMaker& problem) noexcept {
-    Response response;
+Response answer_to(const Request& request, const std::exception_ptr& thrown,
+                   const ProblemMaker& problem) noexcept {
     try {
-        // A 204 is the answer to OPTIONS, not a problem.
-        if (refusal.status() >= 400) {
-            response = problem(refusal.status(), refusal.code(), refusal.what());
-        }
-        response.headers.insert(response.headers.end(), refusal.headers().begin(),
-                                refusal.headers().end());
+        return problem(request, thrown);
     } catch (...) {
-        response = Response{};
+        Response bare;
+        bare.status = 500;
+        return bare;
     }
-    response.status = refusal.status();
-    return response;
 }
 
 }  // namespace lastflat::http

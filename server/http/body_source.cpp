@@ -64,14 +64,15 @@ void BodySource::read_chunks(Buffer& body) {
         raw_bytes_ += sound;
         take(body.size() - before);
         if (framing_.too_large() || raw_bytes_ > most_raw_bytes(limits_)) {
-            throw Refusal(413, "body_too_large",
-                          "The body may have at most " + std::to_string(limits_.body_bytes) +
-                              " bytes. Send a smaller model.");
+            throw api::Refusal("body_too_large", "The body may have at most " +
+                                                     std::to_string(limits_.body_bytes) +
+                                                     " bytes. Send a smaller model.");
         }
         if (framing_.broken()) {
-            throw Refusal(400, "bad_chunks",
-                          "The chunks of the body are broken: each is a hexadecimal size, CR LF, "
-                          "the data, CR LF; the last has size 0 and no trailers follow.");
+            throw api::Refusal(
+                "bad_chunks",
+                "The chunks of the body are broken: each is a hexadecimal size, CR LF, "
+                "the data, CR LF; the last has size 0 and no trailers follow.");
         }
         if (framing_.complete()) return;
         arrived_.resize(read_step);
@@ -85,14 +86,14 @@ std::size_t BodySource::receive(char* bytes, std::size_t size) const {
     ssize_t got = 0;
     do {
         if (!wait_for(fd_, SocketEvent::readable, deadline(), stop_time_)) {
-            throw Refusal(408, "body_too_slow",
-                          "The body did not arrive in time. Send it faster, or smaller.");
+            throw api::Refusal("body_too_slow",
+                               "The body did not arrive in time. Send it faster, or smaller.");
         }
         got = ::recv(fd_, bytes, size, 0);
     } while (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR));
     if (got <= 0) {
-        throw Refusal(400, "body_cut_off",
-                      "The connection ended before the body did. Send it again.");
+        throw api::Refusal("body_cut_off",
+                           "The connection ended before the body did. Send it again.");
     }
     return static_cast<std::size_t>(got);
 }

@@ -192,11 +192,11 @@ void ConnectionGate::look_for_head(Connection& connection, std::size_t searched)
         return;
     }
     if (connection.bytes.find('\n') >= limits_.head_bytes) {  // or there is none
-        return refuse(connection, Refusal(414, "target_too_long", "The request line is too long."));
+        return refuse(connection, api::Refusal("target_too_long", "The request line is too long."));
     }
-    refuse(connection, Refusal(431, "head_too_large",
-                               "The request line and headers may have at most " +
-                                   std::to_string(limits_.head_bytes) + " bytes together."));
+    refuse(connection, api::Refusal("head_too_large",
+                                    "The request line and headers may have at most " +
+                                        std::to_string(limits_.head_bytes) + " bytes together."));
 }
 
 void ConnectionGate::hand_on(Connection& connection, std::size_t head_size) {
@@ -214,9 +214,8 @@ void ConnectionGate::hand_on(Connection& connection, std::size_t head_size) {
     answer(connection, *reply);
 }
 
-void ConnectionGate::refuse(Connection& connection, Refusal refusal) {
-    if (asks_for_head_only(connection.bytes)) refusal.without_body();
-    answer(connection, write_refusal_(refusal));
+void ConnectionGate::refuse(Connection& connection, const api::Refusal& why) {
+    answer(connection, write_refusal_({why, "", asks_for_head_only(connection.bytes)}));
 }
 
 void ConnectionGate::answer(Connection& connection, const std::string& bytes) {
@@ -261,9 +260,10 @@ void ConnectionGate::drop_overdue() {
         if (connection.bytes.empty()) {
             drop(connection);
         } else {
-            refuse(connection, Refusal(408, "head_too_slow",
-                                       "The request's headers did not arrive in time. Send them "
-                                       "at once."));
+            refuse(connection,
+                   api::Refusal("head_too_slow",
+                                "The request's headers did not arrive in time. Send them "
+                                "at once."));
         }
     }
 }

@@ -31,7 +31,7 @@ public:
     using HeadHandler = std::function<std::optional<std::string>(Socket& socket, std::string& bytes,
                                                                  std::size_t head_size)>;
     /// The bytes of the answer to a refusal.
-    using RefusalWriter = std::function<std::string(const Refusal&)>;
+    using RefusalWriter = std::function<std::string(const RefusedHead&)>;
 
     ConnectionGate(const ServerLimits& limits, HeadHandler on_head, RefusalWriter write_refusal);
     ~ConnectionGate() { finish(); }
@@ -75,7 +75,7 @@ private:
     void read_head(Connection& connection);
     void look_for_head(Connection& connection, std::size_t searched);
     void hand_on(Connection& connection, std::size_t head_size);
-    void refuse(Connection& connection, Refusal refusal);
+    void refuse(Connection& connection, const api::Refusal& why);
     void answer(Connection& connection, const std::string& bytes);
     void drain(Connection& connection);
     void drop(Connection& connection);

@@ -25,15 +25,16 @@ std::vector<std::string_view> split_lines(std::string_view raw, std::size_t most
     while (true) {
         const std::size_t end = raw.find_first_of("\r\n");
         if (end == std::string_view::npos || raw.substr(end, 2) != line_end) {
-            throw Refusal(400, "bad_line_end",
-                          "The request's head is broken: every line must end with CR LF and the "
-                          "head with an empty line. Is this plain HTTP, not HTTPS?");
+            throw api::Refusal(
+                "bad_line_end",
+                "The request's head is broken: every line must end with CR LF and the "
+                "head with an empty line. Is this plain HTTP, not HTTPS?");
         }
         if (end == 0) return lines;
         if (lines.size() > most_lines) {
-            throw Refusal(431, "too_many_headers",
-                          "The request has more than " + std::to_string(most_lines) +
-                              " header lines. Send fewer.");
+            throw api::Refusal("too_many_headers", "The request has more than " +
+                                                       std::to_string(most_lines) +
+                                                       " header lines. Send fewer.");
         }
         lines.push_back(raw.substr(0, end));
         raw.remove_prefix(end + line_end.size());
@@ -43,11 +44,12 @@ std::vector<std::string_view> split_lines(std::string_view raw, std::size_t most
 void check_version(std::string_view version) {
     if (version == "HTTP/1.1" || version == "HTTP/1.0") return;
     if (version.size() == 8 && version.substr(0, 5) == "HTTP/") {
-        throw Refusal(505, "version_not_supported",
-                      "This server speaks HTTP/1.1 and HTTP/1.0. Use one of these.");
+        throw api::Refusal("version_not_supported",
+                           "This server speaks HTTP/1.1 and HTTP/1.0. Use one of these.");
     }
-    throw Refusal(400, "bad_request_line",
-                  "The request line must be a method, a target and HTTP/1.1, one space between.");
+    throw api::Refusal(
+        "bad_request_line",
+        "The request line must be a method, a target and HTTP/1.1, one space between.");
 }
 
 RequestLine parse_request_line(std::string_view line) {
@@ -65,25 +67,26 @@ RequestLine parse_request_line(std::string_view line) {
 
 void check_target(std::string_view target) {
     if (target.size() > longest_target) {
-        throw Refusal(414, "target_too_long",
-                      "The request target is longer than " + std::to_string(longest_target) +
-                          " bytes. Put the data into the body.");
+        throw api::Refusal("target_too_long", "The request target is longer than " +
+                                                  std::to_string(longest_target) +
+                                                  " bytes. Put the data into the body.");
     }
     const bool visible = std::all_of(target.begin(), target.end(),
                                      [](char c) { return c > 0x20 && c < 0x7F && c != '#'; });
     if (target.empty() || target[0] != '/' || !visible) {
-        throw Refusal(400, "bad_target",
-                      "The request target must be a path that starts with '/', with every byte "
-                      "outside visible ASCII, and '#', percent-encoded.");
+        throw api::Refusal(
+            "bad_target",
+            "The request target must be a path that starts with '/', with every byte "
+            "outside visible ASCII, and '#', percent-encoded.");
     }
 }
 
 std::string decoded(std::string_view text, bool plus_is_space) {
     const auto result = percent_decoded(text, plus_is_space);
     if (!result || has_control_characters(*result) || !is_utf8(*result)) {
-        throw Refusal(400, "bad_target",
-                      "The request target has a broken percent-encoding, an encoded control "
-                      "character, or bytes that are not UTF-8.");
+        throw api::Refusal("bad_target",
+                           "The request target has a broken percent-encoding, an encoded control "
+                           "character, or bytes that are not UTF-8.");
     }
     return *result;
 }
@@ -99,9 +102,9 @@ std::map<std::string, std::string> parse_query(std::string_view query) {
         const auto added =
             parameters.emplace(decoded(pair.substr(0, equals), true), decoded(value, true));
         if (!added.second) {
-            throw Refusal(400, "repeated_parameter",
-                          "The query has the parameter '" + added.first->first +
-                              "' more than once. Send it once.");
+            throw api::Refusal("repeated_parameter", "The query has the parameter '" +
+                                                         added.first->first +
+                                                         "' more than once. Send it once.");
         }
     }
     return parameters;
@@ -128,21 +131,22 @@ void add_header(std::map<std::string, std::string>& headers, std::string_view li
     const std::size_t colon = std::min(line.find(':'), line.size());
     const std::string name = lower_case(line.substr(0, colon));
     if (colon == line.size() || !is_token(name)) {
-        throw Refusal(400, "bad_header",
-                      "A header line is not 'name: value'. Lines may not be folded, and no space "
-                      "may stand before the colon.");
+        throw api::Refusal(
+            "bad_header",
+            "A header line is not 'name: value'. Lines may not be folded, and no space "
+            "may stand before the colon.");
     }
     const std::string_view value = trimmed(line.substr(colon + 1));
     if (!is_clean_value(value)) {
-        throw Refusal(400, "bad_header",
-                      "The header '" + name +
-                          "' has a control character in its value, plain or percent-encoded.");
+        throw api::Refusal("bad_header",
+                           "The header '" + name +
+                               "' has a control character in its value, plain or percent-encoded.");
     }
     const auto [place, added] = headers.emplace(name, value);
     if (added) return;
     if (must_be_single(name)) {
-        throw Refusal(400, "repeated_header",
-                      "The header '" + name + "' is there more than once. Send it once.");
+        throw api::Refusal("repeated_header",
+                           "The header '" + name + "' is there more than once. Send it once.");
     }
     place->second.append(", ").append(value);
 }
@@ -151,8 +155,8 @@ void check_host(const Request& request, bool is_http_1_0) {
     const std::string_view host = request.header("host");
     const bool clean = host.find_first_of(" \t/\\@,?#") == std::string_view::npos;
     if (!clean || (host.empty() && !is_http_1_0)) {
-        throw Refusal(400, "bad_host",
-                      "The request needs one Host header with the server's name and port.");
+        throw api::Refusal("bad_host",
+                           "The request needs one Host header with the server's name and port.");
     }
 }
 
@@ -160,15 +164,15 @@ std::uint64_t parse_content_length(std::string_view text, const ServerLimits& li
     const bool digits = !text.empty() && std::all_of(text.begin(), text.end(),
                                                      [](char c) { return c >= '0' && c <= '9'; });
     if (!digits) {
-        throw Refusal(400, "bad_content_length",
-                      "Content-Length must be one number of decimal digits.");
+        throw api::Refusal("bad_content_length",
+                           "Content-Length must be one number of decimal digits.");
     }
     std::uint64_t length = 0;
     const auto parsed = std::from_chars(text.data(), text.data() + text.size(), length);
     if (parsed.ec != std::errc() || length > limits.body_bytes) {
-        throw Refusal(413, "body_too_large",
-                      "The body may have at most " + std::to_string(limits.body_bytes) +
-                          " bytes. Send a smaller model.");
+        throw api::Refusal("body_too_large", "The body may have at most " +
+                                                 std::to_string(limits.body_bytes) +
+                                                 " bytes. Send a smaller model.");
     }
     return length;
 }
@@ -176,37 +180,38 @@ std::uint64_t parse_content_length(std::string_view text, const ServerLimits& li
 void check_framing(const Request& request, bool is_http_1_0) {
     if (!request.headers.contains("transfer-encoding")) return;
     if (request.headers.contains("content-length") || is_http_1_0) {
-        throw Refusal(400, "ambiguous_length",
-                      "Transfer-Encoding may stand neither beside Content-Length nor in HTTP/1.0. "
-                      "Send one of the two.");
+        throw api::Refusal(
+            "ambiguous_length",
+            "Transfer-Encoding may stand neither beside Content-Length nor in HTTP/1.0. "
+            "Send one of the two.");
     }
     if (lower_case(request.header("transfer-encoding")) != "chunked") {
-        throw Refusal(501, "transfer_encoding_not_supported",
-                      "The only Transfer-Encoding supported is 'chunked'.");
+        throw api::Refusal("transfer_encoding_not_supported",
+                           "The only Transfer-Encoding supported is 'chunked'.");
     }
 }
 
 void check_conditions(const Request& request) {
     if (request.headers.contains("expect") &&
         lower_case(request.header("expect")) != "100-continue") {
-        throw Refusal(417, "expectation_not_supported",
-                      "The only expectation supported is '100-continue'.");
+        throw api::Refusal("expectation_not_supported",
+                           "The only expectation supported is '100-continue'.");
     }
     if (request.header("range").find(',') != std::string_view::npos) {
-        throw Refusal(400, "multiple_ranges", "Ask for the whole resource instead of ranges.");
+        throw api::Refusal("multiple_ranges", "Ask for the whole resource instead of ranges.");
     }
 }
 
 void check_body(const Head& head) {
     if (!head.has_body()) return;
     if (!head.route->takes_body) {
-        throw Refusal(400, "body_not_allowed",
-                      head.request.method + " " + head.request.path + " takes no body. Send none.");
+        throw api::Refusal("body_not_allowed", head.request.method + " " + head.request.path +
+                                                   " takes no body. Send none.");
     }
     const std::string_view encoding = head.request.header("content-encoding");
     if (!encoding.empty() && lower_case(encoding) != "identity") {
-        throw Refusal(415, "content_encoding_not_supported",
-                      "The body must not be compressed. Send it without Content-Encoding.");
+        throw api::Refusal("content_encoding_not_supported",
+                           "The body must not be compressed. Send it without Content-Encoding.");
     }
 }
 
@@ -214,7 +219,7 @@ void check_method(std::string_view method) {
     constexpr std::array<std::string_view, 7> known = {"GET",   "HEAD",   "POST",   "PUT",
                                                        "PATCH", "DELETE", "OPTIONS"};
     if (std::find(known.begin(), known.end(), method) == known.end()) {
-        throw Refusal(501, "method_not_supported", "This server does not know this method.");
+        throw api::Refusal("method_not_supported", "This server does not know this method.");
     }
 }
 
@@ -226,14 +231,15 @@ void find_route(Head& head, const RouteTable& routes, std::string_view raw_path)
     if (head.route) return;
     const std::string allowed = routes.allowed(raw_path);
     if (allowed.empty()) {
-        throw Refusal(404, "not_found", "There is nothing at this path. See /openapi.json.");
+        throw api::Refusal("not_found", "There is nothing at this path. See /openapi.json.");
     }
-    if (method == "OPTIONS" && !head.has_body()) {
-        throw Refusal(204, "", "").with_header("Allow", allowed);
+    if (method == "OPTIONS") {
+        head.route = &options_route();
+        head.request.captures = {allowed};
+        return;
     }
-    if (method == "OPTIONS") throw Refusal(400, "body_not_allowed", "OPTIONS takes no body.");
-    throw Refusal(405, "method_not_allowed",
-                  "This path does not answer to " + method + ", only to " + allowed + ".")
+    throw api::Refusal("method_not_allowed",
+                       "This path does not answer to " + method + ", only to " + allowed + ".")
         .with_header("Allow", allowed);
 }
 
@@ -268,20 +274,16 @@ void read_meaning(Head& head, const RequestLine& line, const RouteTable& routes,
         head.has_body() && head.request.headers.contains("expect") && !line.is_http_1_0;
 }
 
-Head read_head(const RequestLine& line, const std::vector<std::string_view>& lines,
-               const RouteTable& routes, const ServerLimits& limits) {
+void read_head(std::string_view raw, const RouteTable& routes, const ServerLimits& limits,
+               Head& head) {
+    const auto lines = split_lines(raw, limits.head_lines);
+    if (lines.empty()) check_version("");
+    const RequestLine line = parse_request_line(lines[0]);
     check_target(line.target);
-    Head head;
     head.request.method = line.method;
     head.request.path = decoded(line.target.substr(0, line.target.find('?')), false);
     for (std::size_t i = 1; i < lines.size(); ++i) add_header(head.request.headers, lines[i]);
-    try {
-        read_meaning(head, line, routes, limits);
-    } catch (Refusal& refusal) {
-        refusal.from_origin(head.request.header("origin"));
-        throw;
-    }
-    return head;
+    read_meaning(head, line, routes, limits);
 }
 
 }  // namespace
@@ -305,13 +307,12 @@ std::string canonical_head(const Head& head) {
 }
 
 Head vet_head(std::string_view raw, const RouteTable& routes, const ServerLimits& limits) {
+    Head head;
     try {
-        const auto lines = split_lines(raw, limits.head_lines);
-        if (lines.empty()) check_version("");
-        return read_head(parse_request_line(lines[0]), lines, routes, limits);
-    } catch (Refusal& refusal) {
-        if (asks_for_head_only(raw)) refusal.without_body();
-        throw;
+        read_head(raw, routes, limits, head);
+        return head;
+    } catch (const api::Refusal& why) {
+        throw RefusedHead(why, head.request.header("origin"), asks_for_head_only(raw));
     }
 }
 

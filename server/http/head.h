@@ -37,7 +37,7 @@ struct Head {
 ///
 /// In:     the bytes up to and with the empty line, as `head_length` cut them.
 /// Out:    a head that has one meaning only: one host, one length or `chunked`, a known route.
-/// Throws: Refusal. OPTIONS for a path without a route of its own is the Refusal 204.
+/// Throws: RefusedHead.
 [[nodiscard]] Head vet_head(std::string_view raw, const RouteTable& routes,
                             const ServerLimits& limits);
 

@@ -5,10 +5,10 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -114,18 +114,14 @@ struct ServerLimits {
     std::chrono::milliseconds stop_time{5'000};    ///< for bodies and answers once `stop` is called
 };
 
-/// Makes the answer to a request that never reached a handler (404, 405, 413, 500, 503, ...).
-/// Called from several threads at once.
+/// Makes the answer to what was thrown while a request was read (404, 405, 413, 503, ...) or by its
+/// handler. `request` is empty if its head was no good. Called from several threads at once.
 using ProblemMaker =
-    std::function<Response(int status, std::string_view code, std::string_view detail)>;
+    std::function<Response(const Request& request, const std::exception_ptr& thrown)>;
 
-/// Told why a request became a 500: `what` is for the operator and never reaches the client.
-/// Called from several threads at once.
-using FailureLog = std::function<void(const Request& request, std::string_view what)>;
-
-/// Decides about a request before its body is read; an answer ends it. May set `principal` and
-/// `answer_headers`. Called on connection threads; must not throw.
-using Admit = std::function<std::optional<Response>(Request&)>;
+/// Decides about a request before its body is read; what it throws ends the request. May set
+/// `principal` and `answer_headers`. Called on connection threads.
+using Admit = std::function<void(Request&)>;
 
 struct AnswerReport {
     const Request& request;    ///< without its body; empty if the head was no good
@@ -144,7 +140,6 @@ using OriginHeaders =
 struct ServerHooks {
     ProblemMaker problem;
     OriginHeaders origin_headers{};  ///< for requests that are refused before `admit` sees them
-    FailureLog failed{};
     Admit admit{};
     AnswerLog answered{};
 };
@@ -153,7 +148,7 @@ struct ServerHooks {
 ///
 /// In:     the routes and limits; what makes problem documents; who is told of what.
 /// Out:    every well-formed request is answered by its handler or by a problem; every handler runs
-///         on a connection thread of its own; an exception of a handler becomes a 500.
+///         on a connection thread of its own; what a handler throws becomes one, too.
 ///         HEAD is answered by the GET handler, OPTIONS by the list of methods. `Range` is ignored.
 /// Throws: std::invalid_argument if a route contradicts itself (see Route);
 ///         std::runtime_error from `bind` if the address cannot be bound, and from `run` if the

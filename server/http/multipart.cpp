@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t longest_part_head = 4096;
 
 [[noreturn]] void refuse(const std::string& detail) {
-    throw Refusal(400, "bad_multipart", "The multipart body cannot be read: " + detail);
+    throw api::Refusal("bad_multipart", "The multipart body cannot be read: " + detail);
 }
 
 /// memmem rather than string_view::find: a body of nothing but CRs must not cost more than others.
@@ -153,9 +153,9 @@ std::vector<BodyPart> parse_multipart(std::string_view content_type, std::string
     std::vector<BodyPart> parts;
     while (*kind == AfterDelimiter::part) {
         if (parts.size() == most_parts) {
-            throw Refusal(400, "too_many_parts",
-                          "The multipart body has more than " + std::to_string(most_parts) +
-                              " parts. Send fewer.");
+            throw api::Refusal("too_many_parts", "The multipart body has more than " +
+                                                     std::to_string(most_parts) +
+                                                     " parts. Send fewer.");
         }
         const auto [part, next] = cut_at_delimiter(rest, delimiter);
         parts.push_back(parse_part(part));

@@ -112,4 +112,14 @@ std::string RouteTable::allowed(std::string_view path) const {
     return list;
 }
 
+const Route& options_route() {
+    static const Route route{"OPTIONS", "*", [](const Request& request) {
+                                 Response response;
+                                 response.status = 204;
+                                 response.headers.emplace_back("Allow", request.captures.at(0));
+                                 return response;
+                             }};
+    return route;
+}
+
 }  // namespace lastflat::http

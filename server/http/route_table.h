@@ -32,4 +32,7 @@ private:
     std::vector<Route> routes_;
 };
 
+/// What answers OPTIONS: 204 with an Allow header, the request's one capture.
+[[nodiscard]] const Route& options_route();
+
 }  // namespace lastflat::http

@@ -52,12 +52,11 @@ public:
 private:
     [[nodiscard]] std::optional<std::string> on_head(Socket& socket, std::string& bytes,
                                                      std::size_t head_size);
-    [[nodiscard]] std::string refusal_bytes(const Refusal& refusal) const;
+    [[nodiscard]] std::string refusal_bytes(const RefusedHead& refusal) const;
     [[nodiscard]] std::string request_id(const Request& request);
     void serve(VettedConnection connection);
     [[nodiscard]] Response handle(Head& head, const HttpLibrary::ReadBody& read_body,
                                   Buffer& body) const;
-    [[nodiscard]] Response failed(const Request& request, std::string_view what) const;
 
     const RouteTable routes_;
     const ServerLimits limits_;
@@ -79,7 +78,7 @@ void Server::Impl::run() {
         [this](Socket& socket, std::string& bytes, std::size_t head_size) {
             return on_head(socket, bytes, head_size);
         },
-        [this](const Refusal& refusal) { return refusal_bytes(refusal); });
+        [this](const RefusedHead& refusal) { return refusal_bytes(refusal); });
     const auto serve_one = [this](VettedConnection connection) { serve(std::move(connection)); };
     pool_ = std::make_unique<ConnectionPool>(limits_.connections, limits_.waiting_requests,
                                              limits_.queued_requests, serve_one);
@@ -107,20 +106,17 @@ std::optional<std::string> Server::Impl::on_head(Socket& socket, std::string& by
         connection.socket = std::move(socket);
         if (pool.offer(connection)) return std::nullopt;
         socket = std::move(connection.socket);
-        Refusal refusal = overloaded().from_origin(connection.head.request.header("origin"));
-        if (without_body) refusal.without_body();
-        return refusal_bytes(refusal);
-    } catch (const Refusal& refusal) {
+        return refusal_bytes(
+            {overloaded(), connection.head.request.header("origin"), without_body});
+    } catch (const RefusedHead& refusal) {
         return refusal_bytes(refusal);
     }
 }
 
-std::string Server::Impl::refusal_bytes(const Refusal& refusal) const {
-    if (hooks_.answered) {
-        const Request unknown;
-        hooks_.answered({unknown, "", refusal.status()});
-    }
-    Response response = answer_to(refusal, hooks_.problem);
+std::string Server::Impl::refusal_bytes(const RefusedHead& refusal) const {
+    const Request unknown;
+    Response response = answer_to(unknown, std::make_exception_ptr(refusal), hooks_.problem);
+    if (hooks_.answered) hooks_.answered({unknown, "", response.status});
     if (hooks_.origin_headers) {
         for (auto& header : hooks_.origin_headers(refusal.origin()))
             response.headers.push_back(std::move(header));
@@ -145,8 +141,13 @@ void Server::Impl::serve(VettedConnection connection) {
     request.answer_headers.emplace_back("X-Request-Id", request.id);
     request.waiting_room = head.route->express ? express_pool_.get() : pool_.get();
     // Asked before the library is: it would ask the client for a body that nobody wants.
-    auto refused = hooks_.admit ? hooks_.admit(request) : std::nullopt;
-    if (refused) head.awaits_continue = false;
+    std::optional<Response> refused;
+    try {
+        if (hooks_.admit) hooks_.admit(request);
+    } catch (...) {
+        refused = answer_to(request, std::current_exception(), hooks_.problem);
+        head.awaits_continue = false;
+    }
     auto outcome = library_.exchange(connection, [&](const HttpLibrary::ReadBody& read_body) {
         Buffer body;
         Response response = refused ? std::move(*refused) : handle(head, read_body, body);
@@ -175,26 +176,11 @@ Response Server::Impl::handle(Head& head, const HttpLibrary::ReadBody& read_body
         }
         Response response = head.route->handler(head.request);
         if (response.stream && !head.takes_chunks)
-            throw Refusal(505, "version_not_supported", "A stream needs HTTP/1.1.");
+            throw api::Refusal("version_not_supported", "A stream needs HTTP/1.1.");
         return response;
-    } catch (const Refusal& refusal) {
-        return answer_to(refusal, hooks_.problem);
-    } catch (const std::exception& error) {
-        return failed(head.request, error.what());
     } catch (...) {
-        return failed(head.request, "an exception of unknown type");
+        return answer_to(head.request, std::current_exception(), hooks_.problem);
     }
-}
-
-Response Server::Impl::failed(const Request& request, std::string_view what) const {
-    try {
-        if (hooks_.failed) hooks_.failed(request, what);
-    } catch (...) {
-        // A log that fails must not take the answer with it.
-    }
-    return answer_to(Refusal(500, "internal_error",
-                             "The server failed to answer. The fault is not in the request."),
-                     hooks_.problem);
 }
 
 Server::Server(std::vector<Route> routes, ServerLimits limits, ServerHooks hooks)

@@ -6,13 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "api/asset.h"
+
 namespace lastflat::server {
 
-struct Asset {
-    std::string digest;  ///< SHA-256 of the bytes, and its name
-    std::uint64_t bytes = 0;
-    std::int64_t created_ms = 0;
-};
+using api::Asset;
 
 struct AssetLimits {
     std::uint64_t bytes = 4ULL << 30;  ///< of one owner

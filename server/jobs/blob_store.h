@@ -4,19 +4,22 @@
 #include <filesystem>
 #include <mutex>
 #include <shared_mutex>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "api/refusal.h"
 #include "server/support/fair_gate.h"
 
 namespace lastflat::server {
 
 /// A blob whose bytes are not those that were kept.
-class CorruptBlob : public std::runtime_error {
+class CorruptBlob : public api::Refusal {
 public:
-    using std::runtime_error::runtime_error;
+    explicit CorruptBlob(const std::string& why)
+        : Refusal(
+              {"result_corrupt", "the stored bytes have changed on the disk; post the job again"},
+              why) {}
 };
 
 /// Every call is safe from any thread and may throw StoreError.

@@ -4,16 +4,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "api/webhook.h"
 #include "server/jobs/job_state.h"
 
 namespace lastflat::server {
-
-/// Who is told of one job's end.
-struct JobWebhook {
-    std::string url, secret, events;  ///< see `Webhook`
-};
 
 /// What a job asks for. The model is a blob; the request is the constraint JSON as it was sent.
 struct NewJob {
@@ -26,7 +23,7 @@ struct NewJob {
     std::string fingerprint;                   ///< of everything asked: the same means a repetition
     std::string idempotency_key;               ///< empty: none
     std::optional<std::int64_t> cancel_at_ms;  ///< if it has not ended by then
-    std::optional<JobWebhook> webhook;
+    std::optional<api::WebhookRequest> webhook;
 };
 
 /// One format of a result: a part of the result's blob.
@@ -49,17 +46,20 @@ struct JobRecord {
     int attempt = 0;
     std::int64_t revision = 0;                  ///< grows with every change
     std::optional<std::size_t> queue_position;  ///< while queued; 1: next
-    std::string error;                          ///< of a failed job: its problem, JSON
+    std::optional<api::Problem> error;          ///< of a failed job
     std::string result;                         ///< the blob; empty: none, or expired
     std::vector<ResultPart> parts;
 };
 
-/// How a run ended. A result, or a problem (JSON), or neither: it was canceled.
-struct JobOutcome {
-    std::string result;
+/// How a run ends that was not canceled.
+struct Succeeded {
+    std::string result;  ///< the blob
     std::vector<ResultPart> parts;
-    std::string error;
 };
+struct Failed {
+    api::Problem problem;
+};
+using JobEnd = std::variant<Succeeded, Failed>;
 
 /// 26 characters that sort by time and cannot be guessed (a ULID).
 [[nodiscard]] std::string new_job_id();

@@ -1,6 +1,6 @@
 #include "server/jobs/job_control.h"
 
-#include "server/jobs/refusal.h"
+#include "api/refusal.h"
 
 namespace lastflat::server {
 
@@ -8,8 +8,8 @@ JobRecord found_job(JobStore& jobs, const std::string& owner, const std::string&
     auto job = jobs.find(owner, id);
     if (job) return std::move(*job);
     if (jobs.is_expired(owner, id))
-        refuse(410, "job_expired", "the job " + id + " was kept as long as jobs are; it is gone");
-    refuse(404, "job_not_found", "there is no job " + id + "; it may have been deleted");
+        api::refuse("job_expired", "the job " + id + " was kept as long as jobs are; it is gone");
+    api::refuse("job_not_found", "there is no job " + id + "; it may have been deleted");
 }
 
 void drop_unneeded(const BlobStore& blobs, JobStore& jobs,
@@ -18,12 +18,10 @@ void drop_unneeded(const BlobStore& blobs, JobStore& jobs,
                           [&](const std::string& digest) { return jobs.needs_blob(digest); });
 }
 
-std::string worker_lost_problem() {
-    return api::to_json(api::Problem{
-        500, "worker_lost", "",
-        "the job was begun three times and its worker was lost each time; post it again, or send a "
-        "coarser model",
-        std::nullopt, std::nullopt});
+api::Problem worker_lost_problem() {
+    return {"worker_lost",
+            "the job was begun three times and its worker was lost each time; post it again, or "
+            "send a coarser model"};
 }
 
 void JobControl::has_ended(const std::string& id) {
@@ -35,7 +33,7 @@ JobRecord JobControl::cancel(const std::string& owner, const std::string& id) {
     const auto state = jobs_.cancel(owner, id);
     if (!state) (void)found_job(jobs_, owner, id);
     if (state == JobState::succeeded || state == JobState::failed)
-        refuse(409, "already_finished", "the job has already " + std::string(name(*state)));
+        api::refuse("already_finished", "the job has already " + std::string(name(*state)));
     has_ended(id);
     JobRecord job = found_job(jobs_, owner, id);
     drop_unneeded(blobs_, jobs_, {job.model});

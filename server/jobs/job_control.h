@@ -14,8 +14,8 @@ namespace lastflat::server {
 /// Removes those of the blobs that no row needs any more.
 void drop_unneeded(const BlobStore& blobs, JobStore& jobs, const std::vector<std::string>& digests);
 
-/// What a job ends with whose worker was lost for the last time: a problem, JSON.
-[[nodiscard]] std::string worker_lost_problem();
+/// What a job ends with whose worker was lost for the last time.
+[[nodiscard]] api::Problem worker_lost_problem();
 
 /// Safe from any thread; every call may throw StoreError.
 class JobControl {

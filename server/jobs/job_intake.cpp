@@ -1,7 +1,7 @@
 #include "server/jobs/job_intake.h"
 
+#include "api/refusal.h"
 #include "server/jobs/job_control.h"
-#include "server/jobs/refusal.h"
 #include "server/support/clock.h"
 #include "server/support/crypto.h"
 #include "server/support/duration.h"
@@ -13,7 +13,8 @@ namespace {
 /// Nothing without a webhook: fingerprints of earlier versions stay good.
 std::string webhook_print(const NewJob& job) {
     if (!job.webhook) return {};
-    return "\n" + job.webhook->url + "\n" + job.webhook->events + "\n" + job.webhook->secret;
+    return "\n" + job.webhook->url + "\n" + api::event_names(job.webhook->events) + "\n" +
+           job.webhook->secret;
 }
 
 NewJob new_job(const Submission& submission) {
@@ -34,16 +35,17 @@ NewJob new_job(const Submission& submission) {
 
 void check_room(const BlobStore& blobs, std::size_t min_free_mb) {
     if (blobs.free_bytes() >= min_free_mb << 20) return;
-    refuse(507, "storage_full",
-           "less than " + std::to_string(min_free_mb) +
-               " MiB of the service's disk are free (the limit --min-free-mb); its operator has to "
-               "make room, or delete jobs and assets that you do not need");
+    api::refuse(
+        "storage_full",
+        "less than " + std::to_string(min_free_mb) +
+            " MiB of the service's disk are free (the limit --min-free-mb); its operator has to "
+            "make room, or delete jobs and assets that you do not need");
 }
 
 void require_webhooks(bool webhooks) {
     if (!webhooks)
-        refuse(403, "webhooks_off",
-               "this service sends no webhooks (--webhooks off); poll instead");
+        api::refuse("webhooks_off",
+                    "this service sends no webhooks (--webhooks off); poll instead");
 }
 
 bool JobIntake::enter(const std::string& key) {
@@ -59,18 +61,18 @@ void JobIntake::leave(const std::string& key) {
 void JobIntake::refuse_admission(Admission admission) const {
     switch (admission) {
         case Admission::queue_full:
-            refuse(503, "queue_full",
-                   "the queue is full (" + std::to_string(limits_.queue.queued) +
-                       " jobs wait, the limit --queue); try again in a few seconds");
+            api::refuse("queue_full",
+                        "the queue is full (" + std::to_string(limits_.queue.queued) +
+                            " jobs wait, the limit --queue); try again in a few seconds");
         case Admission::owner_queue_full:
-            refuse(429, "key_queue_full",
-                   "this API key has " + std::to_string(limits_.queue.queued_of_owner) +
-                       " jobs waiting (the limit --queue-per-key); wait for some to end");
+            api::refuse("key_queue_full",
+                        "this API key has " + std::to_string(limits_.queue.queued_of_owner) +
+                            " jobs waiting (the limit --queue-per-key); wait for some to end");
         case Admission::key_reused:
-            refuse(422, "key_reused",
-                   "this Idempotency-Key belongs to another request; take a new key");
+            api::refuse("key_reused",
+                        "this Idempotency-Key belongs to another request; take a new key");
         case Admission::id_taken:
-            refuse(409, "id_taken", "there is another job with this id; choose a new one");
+            api::refuse("id_taken", "there is another job with this id; choose a new one");
         case Admission::queued:
         case Admission::repeated: break;
     }
@@ -84,8 +86,10 @@ std::string JobIntake::digest_of_model(const Submission& submission, NewJob& job
     }
     const auto asset = assets_.find(submission.owner, submission.asset);
     if (!asset)
-        refuse(422, "asset_not_found",
-               "there is no asset " + submission.asset.substr(0, 80) + "; send the model first");
+        throw api::Refusal(
+            "asset_not_found",
+            "there is no asset " + submission.asset.substr(0, 80) + "; send the model first")
+            .in_content();
     job.model_bytes = asset->bytes;
     return asset->digest;
 }
@@ -100,15 +104,15 @@ Admitted JobIntake::admit(const Submission& submission, NewJob& job) {
 
 Submitted JobIntake::submit(const Submission& submission) {
     if (draining_)
-        refuse(503, "draining", "the service is ending and takes no new jobs; try again later");
+        api::refuse("draining", "the service is ending and takes no new jobs; try again later");
     if (submission.webhook) require_webhooks(limits_.webhooks);
     check_room(blobs_, limits_.min_free_mb);
     // While one request with a key is being taken, a second one must not overtake it.
     const std::string key = submission.owner + " " + submission.idempotency_key;
     const bool has_key = !submission.idempotency_key.empty();
     if (has_key && !enter(key))
-        refuse(409, "key_in_flight",
-               "a request with this Idempotency-Key is being taken right now; ask again");
+        api::refuse("key_in_flight",
+                    "a request with this Idempotency-Key is being taken right now; ask again");
     const ScopeExit at_end([&] {
         if (has_key) leave(key);
     });

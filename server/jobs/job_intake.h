@@ -23,7 +23,7 @@ struct Submission {
     std::string asset;                        ///< digest of an asset
     std::string request;  ///< the constraint JSON, valid; may be empty: every default
     std::string tag;
-    std::optional<JobWebhook> webhook;
+    std::optional<api::WebhookRequest> webhook;
 
     std::string owner;            ///< id of the API key; empty: the service is open
     std::string id;               ///< chosen by the client, else empty

@@ -1,8 +1,9 @@
 // The life of a job.
 #pragma once
 
-#include <optional>
 #include <string_view>
+
+#include "api/job.h"
 
 namespace lastflat::server {
 
@@ -14,30 +15,11 @@ namespace lastflat::server {
 ///   └──────────────────► canceled
 ///
 /// A running job goes back to queued when its worker is lost or the service ends.
-enum class JobState { queued, running, canceling, succeeded, failed, canceled };
+using api::is_final;
+using api::JobState;
 
 [[nodiscard]] constexpr std::string_view name(JobState state) {
-    switch (state) {
-        case JobState::queued: return "queued";
-        case JobState::running: return "running";
-        case JobState::canceling: return "canceling";
-        case JobState::succeeded: return "succeeded";
-        case JobState::failed: return "failed";
-        case JobState::canceled: return "canceled";
-    }
-    return "unknown";
-}
-
-[[nodiscard]] constexpr std::optional<JobState> job_state_of(std::string_view word) {
-    for (const JobState state : {JobState::queued, JobState::running, JobState::canceling,
-                                 JobState::succeeded, JobState::failed, JobState::canceled}) {
-        if (name(state) == word) return state;
-    }
-    return std::nullopt;
-}
-
-[[nodiscard]] constexpr bool is_final(JobState state) {
-    return state == JobState::succeeded || state == JobState::failed || state == JobState::canceled;
+    return api::word_of(api::job_states, state);
 }
 
 /// Whether a job may go from one state to the other. Stores ask it on every change.

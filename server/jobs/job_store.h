@@ -109,8 +109,7 @@ public:
     [[nodiscard]] virtual Hold renew(const Lease& lease, std::int64_t lease_ms) = 0;
     /// Ends a running job; one that is being canceled ends as canceled whatever the outcome. The
     /// state then; nothing, and nothing is changed, if the lease was lost.
-    [[nodiscard]] virtual std::optional<JobState> finish(const Lease& lease,
-                                                         const JobOutcome& outcome) = 0;
+    [[nodiscard]] virtual std::optional<JobState> finish(const Lease& lease, const JobEnd& end) = 0;
     /// Gives a running job back to the queue. As above.
     [[nodiscard]] virtual std::optional<JobState> release(const Lease& lease, Release why) = 0;
 
@@ -125,7 +124,7 @@ public:
     /// Jobs whose lease is over go back to the queue, or fail with `lost` after the last attempt;
     /// `all_leases`: every lease counts as over (its holder is known to be gone). Deadlines cancel.
     /// Results and jobs past their time are forgotten.
-    [[nodiscard]] virtual Swept sweep(bool all_leases, const std::string& lost) = 0;
+    [[nodiscard]] virtual Swept sweep(bool all_leases, const api::Problem& lost) = 0;
     /// Whether a job or an asset still needs the blob.
     [[nodiscard]] virtual bool needs_blob(const std::string& digest) = 0;
 };

@@ -6,26 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "api/webhook.h"
+
 namespace lastflat::server {
 
 /// One for a single job has the job's id and is forgotten with it.
-struct Webhook {
-    std::string id, owner, url;
-    std::string secret;  ///< "whsec_" and base64
-    std::string events;  ///< names with a space between
-    std::int64_t created_ms = 0;
+struct Webhook : api::Webhook {
+    std::string owner;
 };
 
-struct Delivery {
+struct Delivery : api::Delivery {
     std::int64_t seq = 0;  ///< in the order of their making
-    std::string id;        ///< the same for every attempt
-    std::string webhook, event, payload;
-    std::int64_t created_ms = 0;
-    int attempt = 0;
-    std::optional<std::int64_t> next_ms;  ///< of the next attempt; nothing: there is none
-    bool delivered = false;
-    int status = 0;  ///< of the last answer; 0: there was none
-    std::string error;
+    std::string webhook;
 };
 
 /// A message and where it goes.

@@ -7,9 +7,9 @@
 
 namespace lastflat::server {
 
-ResultPack write_result_pack(const JobOutput& output, const std::filesystem::path& path) {
+Succeeded write_result_pack(const JobOutput& output, const std::filesystem::path& path) {
     const File file(path, O_WRONLY | O_CREAT | O_TRUNC);
-    ResultPack pack;
+    Succeeded pack;
     Sha256 whole;
     std::uint64_t offset = 0;
     const auto add = [&](const char* format, bool is_gzip, std::string_view bytes) {
@@ -28,7 +28,7 @@ ResultPack write_result_pack(const JobOutput& output, const std::filesystem::pat
     add_both("obj", output.obj);
     add_both("metrics", output.metrics);
     file.sync();
-    pack.digest = whole.finish();
+    pack.result = whole.finish();
     return pack;
 }
 

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "server/jobs/job.h"
 
@@ -20,13 +19,9 @@ struct JobOutput {
     Rendered metrics;  ///< the JSON without coordinates
 };
 
-struct ResultPack {
-    std::string digest;  ///< SHA-256 of the file
-    std::vector<ResultPart> parts;
-};
-
-/// Writes the file; it is on the disk when the call returns. Throws: StoreError.
-[[nodiscard]] ResultPack write_result_pack(const JobOutput& output,
-                                           const std::filesystem::path& file);
+/// Writes the file, named by its digest; it is on the disk when the call returns. Throws:
+/// StoreError.
+[[nodiscard]] Succeeded write_result_pack(const JobOutput& output,
+                                          const std::filesystem::path& file);
 
 }  // namespace lastflat::server

@@ -1,16 +1,17 @@
-// What the service and a worker say to each other: one JSON object a line.
+// What the service and a worker say to each other: one message a line.
 //
-//   service -> worker   the order
-//   worker -> service   {"stage": "cut", "fraction": 0.2}            any number of times
-//                       {"digest": "...", "parts": [...]}            the end: a result in `result`
-//                       {"problem": {...}}                           the end: the job has failed
-//                       {"report": {...}}                            the end of any other task
-//                       {"retry": "why"}                             the end: not the job's fault
+//   service -> worker   the order, as JSON
+//   worker -> service   progress {"stage": "cut", "fraction": 0.2}   any number of times
+//                       result {"digest": "...", "parts": [...]}     the end: in `order.result`
+//                       problem {...}                                the end: the job has failed
+//                       report {...}                                 the end of any other task
+//                       retry why                                    the end: not the job's fault
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "server/jobs/job.h"
 
@@ -38,13 +39,20 @@ struct WorkOrder {
 /// Throws: nlohmann::json::exception.
 [[nodiscard]] WorkOrder work_order_of(std::string_view line);
 
-/// One message of a worker: exactly one of the members is given.
-struct WorkMessage {
-    std::optional<std::pair<std::string, double>> progress;
-    std::optional<JobOutcome> outcome;
-    std::optional<std::string> report, retry;
+struct StageReached {
+    std::string stage;
+    double fraction;  ///< of the whole job
 };
+/// A body of the wire, on one line.
+struct Report {
+    std::string json;
+};
+struct Retry {
+    std::string why;
+};
+using WorkMessage = std::variant<StageReached, Succeeded, Failed, Report, Retry>;
 
+[[nodiscard]] std::string to_line(const WorkMessage& message);
 /// Nothing if the line is no message.
 [[nodiscard]] std::optional<WorkMessage> work_message_of(std::string_view line);
 

@@ -2,19 +2,14 @@
 
 #include <algorithm>
 
-#include "server/routes/answers.h"
+#include "api/refusal.h"
 #include "server/support/clock.h"
-#include "server/support/files.h"
 
 namespace lastflat::server {
 namespace {
 
 constexpr std::int64_t window_ms = 60'000;
 constexpr std::string_view scheme = "Bearer ";
-
-http::Response problem(int status, const char* code, const std::string& detail) {
-    return problem_response({status, code, "", detail, std::nullopt, std::nullopt});
-}
 
 bool is_this_machine(const std::string& address) {
     return address.rfind("127.", 0) == 0 || address == "::1" ||
@@ -23,38 +18,33 @@ bool is_this_machine(const std::string& address) {
 
 }  // namespace
 
-std::optional<http::Response> Access::admit(http::Request& request) {
+void Access::admit(http::Request& request) {
     allow_origin(request);
-    if (request.method == "OPTIONS" || request.path.rfind("/v1/", 0) != 0) return std::nullopt;
-    try {
-        if (auto refused = check_key(request)) return refused;
-    } catch (const StoreError&) {
-        return problem(503, "store_unavailable", "the keys cannot be read now; try again later");
-    }
-    return count(request);
+    if (request.method == "OPTIONS" || request.path.rfind("/v1/", 0) != 0) return;
+    check_key(request);
+    count(request);
 }
 
-std::optional<http::Response> Access::check_key(http::Request& request) {
+void Access::check_key(http::Request& request) {
     const std::string_view header = request.header("authorization");
     if (!keys_.has_keys()) {
         // A proxy on this machine says whom it speaks for; that is not this machine.
         const bool forwarded =
             request.headers.contains("x-forwarded-for") || request.headers.contains("forwarded");
-        if (is_this_machine(request.remote_address) && !forwarded) return std::nullopt;
-        return problem(401, "no_keys",
-                       "this service has no API key yet and answers clients on its own machine "
-                       "only; its operator makes one with: lastflat keys add NAME");
+        if (is_this_machine(request.remote_address) && !forwarded) return;
+        api::refuse("no_keys",
+                    "this service has no API key yet and answers clients on its own machine only; "
+                    "its operator makes one with: lastflat keys add NAME");
     }
     if (header.substr(0, scheme.size()) != scheme)
-        return problem(401, "key_missing", "send your API key: Authorization: Bearer KEY");
+        api::refuse("key_missing", "send your API key: Authorization: Bearer KEY");
     const auto id = keys_.check(header.substr(scheme.size()));
-    if (!id) return problem(401, "key_unknown", "this API key is not known, or was revoked");
+    if (!id) api::refuse("key_unknown", "this API key is not known, or was revoked");
     request.principal = *id;
-    return std::nullopt;
 }
 
-std::optional<http::Response> Access::count(http::Request& request) {
-    if (rules_.rate == 0 || request.principal.empty()) return std::nullopt;
+void Access::count(http::Request& request) {
+    if (rules_.rate == 0 || request.principal.empty()) return;
     std::size_t left = 0;
     bool over = false;
     std::int64_t seconds = 0;
@@ -72,12 +62,10 @@ std::optional<http::Response> Access::count(http::Request& request) {
                                         "\"default\";q=" + std::to_string(rules_.rate) + ";w=60");
     request.answer_headers.emplace_back(
         "RateLimit", "\"default\";r=" + std::to_string(left) + ";t=" + std::to_string(seconds));
-    if (!over) return std::nullopt;
-    http::Response response = problem(
-        429, "rate_exceeded",
-        "this API key may send " + std::to_string(rules_.rate) + " requests a minute (--rate)");
-    response.headers.emplace_back("Retry-After", std::to_string(seconds));
-    return response;
+    if (over)
+        throw api::Refusal("rate_exceeded", "this API key may send " + std::to_string(rules_.rate) +
+                                                " requests a minute (--rate)")
+            .with_header("Retry-After", std::to_string(seconds));
 }
 
 std::vector<std::pair<std::string, std::string>> Access::origin_headers(
@@ -105,27 +93,6 @@ void Access::allow_origin(http::Request& request) const {
         "Authorization, Content-Type, Content-Digest, Idempotency-Key, Prefer, Cancel-After, "
         "X-Flatten-Constraints, X-Request-Id, If-None-Match, Last-Event-ID, Range");
     request.answer_headers.emplace_back("Access-Control-Max-Age", "600");
-}
-
-std::vector<http::Route> preflight_routes(const std::vector<http::Route>& routes) {
-    std::map<std::string, std::string> allowed;
-    for (const http::Route& route : routes) {
-        std::string& methods = allowed[route.pattern];
-        if (!methods.empty()) methods += ", ";
-        methods += route.method;
-        if (route.method == "GET") methods += ", HEAD";
-    }
-    std::vector<http::Route> preflights;
-    preflights.reserve(allowed.size());
-    for (const auto& [pattern, methods] : allowed) {
-        preflights.push_back(
-            {"OPTIONS", pattern, [allow = methods + ", OPTIONS"](const http::Request&) {
-                 http::Response response = empty_response(204);
-                 response.headers.emplace_back("Allow", allow);
-                 return response;
-             }});
-    }
-    return preflights;
 }
 
 }  // namespace lastflat::server

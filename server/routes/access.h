@@ -21,16 +21,15 @@ public:
     /// `keys` must outlive it.
     Access(KeyStore& keys, AccessRules rules) : keys_(keys), rules_(std::move(rules)) {}
 
-    /// Sets the principal and the headers of the answer; an answer that ends the request, or
-    /// nothing.
-    [[nodiscard]] std::optional<http::Response> admit(http::Request& request);
+    /// Sets the principal and the headers of the answer. Throws: Refusal (401, 429), StoreError.
+    void admit(http::Request& request);
     /// What lets a web page of this origin read the answer: nothing unless it is on the list.
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> origin_headers(
         std::string_view origin) const;
 
 private:
-    [[nodiscard]] std::optional<http::Response> check_key(http::Request& request);
-    [[nodiscard]] std::optional<http::Response> count(http::Request& request);
+    void check_key(http::Request& request);
+    void count(http::Request& request);
     void allow_origin(http::Request& request) const;
 
     struct Window {
@@ -42,8 +41,5 @@ private:
     std::mutex mutex_;
     std::map<std::string, Window> windows_;  ///< by key
 };
-
-/// Answers OPTIONS for every path of `routes`, for web pages that ask before they call.
-[[nodiscard]] std::vector<http::Route> preflight_routes(const std::vector<http::Route>& routes);
 
 }  // namespace lastflat::server

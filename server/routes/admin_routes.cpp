@@ -1,7 +1,7 @@
 #include "server/routes/admin_routes.h"
 
-#include <nlohmann/json.hpp>
-
+#include "api/health.h"
+#include "api/refusal.h"
 #include "server/routes/answers.h"
 #include "server/support/clock.h"
 #include "server/support/version.h"
@@ -9,26 +9,24 @@
 namespace lastflat::server {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// A store that fails is said, but is no reason to restart the process: the answer is still 200.
 http::Response health(const AdminServices& service) {
-    Json json{{"status", service.draining ? "draining" : "ok"}, {"version", version}};
+    api::Health health{service.draining ? api::Status::draining : api::Status::ok, version, {}};
     try {
         const JobCounts counts = service.jobs.counts();
-        json["jobs"] = {{"queued", counts.queued}, {"running", counts.running}};
+        health.jobs = {counts.queued, counts.running};
     } catch (const StoreError&) {
-        json["status"] = "store_unavailable";
+        health.status = api::Status::store_unavailable;
     }
-    return json_response(200, json.dump());
+    return json_response(200, to_json(health));
 }
 
 http::Response readiness(const AdminServices& service) {
     const JobCounts counts = service.jobs.counts();
-    if (service.draining) refuse(503, "draining", "the service is ending");
-    const Json json{{"status", "ready"},
-                    {"jobs", {{"queued", counts.queued}, {"running", counts.running}}}};
-    return json_response(200, json.dump());
+    if (service.draining) api::refuse("draining", "the service is ending");
+    return json_response(
+        200, to_json(api::Health{
+                 api::Status::ready, {}, api::Health::Jobs{counts.queued, counts.running}}));
 }
 
 http::Response metrics(const AdminServices& service) {
@@ -55,13 +53,11 @@ http::Route health_route(const AdminServices& service) {
 }
 
 std::vector<http::Route> admin_routes(const AdminServices& service) {
-    return {
-        health_route(service),
-        {"GET", "/readyz", guarded([service](const http::Request&) { return readiness(service); })},
-        {"GET", "/metrics", guarded([service](const http::Request&) { return metrics(service); })},
-        {"GET", "/version", [](const http::Request&) {
-             return json_response(200, Json{{"version", version}}.dump());
-         }}};
+    return {health_route(service),
+            {"GET", "/readyz", [service](const http::Request&) { return readiness(service); }},
+            {"GET", "/metrics", [service](const http::Request&) { return metrics(service); }},
+            {"GET", "/version",
+             [](const http::Request&) { return json_response(200, api::version_json(version)); }}};
 }
 
 }  // namespace lastflat::server

@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include "api/object_reader.h"
-#include "core/error.h"
-#include "server/jobs/blob_store.h"
-#include "server/support/files.h"
-#include "server/worker/problem_map.h"
+#include "api/problem_of.h"
+#include "server/support/log.h"
 
 namespace lastflat::server {
 namespace {
@@ -45,46 +42,27 @@ http::Response empty_response(int status) {
     return response;
 }
 
-api::Problem store_unavailable() {
-    return {503,
-            "store_unavailable",
-            "",
-            "the service cannot store or read its data now (a full or broken disk?); "
-            "nothing was changed, try again later",
-            std::nullopt,
-            std::nullopt};
+api::Refusal refusal_to(const http::Request& request, const std::exception_ptr& thrown) {
+    api::Refusal refusal = api::refusal_of(thrown);
+    if (!(refusal.problem().code == "internal_error")) return refusal;
+    log_event("request_failed",
+              {{"request", request.id}, {"path", request.path}, {"why", refusal.what()}});
+    return {"internal_error", "The server failed to answer. The fault is not in the request."};
 }
 
-http::Response problem_response(const api::Problem& problem) {
+http::Response answer_to(const http::Request& request, const std::exception_ptr& thrown) {
+    const api::Refusal refusal = refusal_to(request, thrown);
+    const api::Problem& problem = refusal.problem();
     http::Response response = json_response(problem.status, api::to_json(problem));
     response.media_type = "application/problem+json";
+    response.headers.insert(response.headers.end(), refusal.headers().begin(),
+                            refusal.headers().end());
     if (problem.code == "not_finished" || problem.code == "key_in_flight")
         response.headers.emplace_back("Retry-After", "1");
-    else if (problem.status == 503)
+    else if (problem.status == 503 && refusal.headers().empty())
         response.headers.emplace_back("Retry-After", "5");
     if (problem.status == 401) response.headers.emplace_back("WWW-Authenticate", "Bearer");
     return response;
-}
-
-http::Handler guarded(http::Handler handler) {
-    return [handler = std::move(handler)](const http::Request& request) {
-        try {
-            return handler(request);
-        } catch (const Refusal& refusal) {
-            return problem_response(refusal.problem());
-        } catch (const api::InvalidRequest& invalid) {
-            return problem_response(problem_of(invalid));
-        } catch (const Error& error) {
-            return problem_response(problem_of(error));
-        } catch (const StoreError&) {
-            return problem_response(store_unavailable());
-        } catch (const CorruptBlob&) {
-            return problem_response(
-                {500, "result_corrupt", "",
-                 "the stored bytes have changed on the disk; post the job again", std::nullopt,
-                 std::nullopt});
-        }
-    };
 }
 
 bool has_already(const http::Request& request, const std::string& etag) {

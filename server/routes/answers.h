@@ -3,22 +3,21 @@
 
 #include <string>
 
+#include "api/refusal.h"
 #include "server/http/http.h"
-#include "server/jobs/refusal.h"
 
 namespace lastflat::server {
 
 [[nodiscard]] http::Response json_response(int status, std::string body);
 [[nodiscard]] http::Response empty_response(int status);
 
-/// The store cannot do its work now.
-[[nodiscard]] api::Problem store_unavailable();
+/// What the client is told of what was thrown: an internal error is logged instead.
+[[nodiscard]] api::Refusal refusal_to(const http::Request& request,
+                                      const std::exception_ptr& thrown);
 
-/// A problem document as a response; where it helps, with Retry-After.
-[[nodiscard]] http::Response problem_response(const api::Problem& problem);
-
-/// The handler with everything it may throw turned into an answer: the only catch of the handlers.
-[[nodiscard]] http::Handler guarded(http::Handler handler);
+/// The same as a response, where it helps with Retry-After.
+[[nodiscard]] http::Response answer_to(const http::Request& request,
+                                       const std::exception_ptr& thrown);
 
 /// Whether `If-None-Match` names the tag: the client has this already.
 [[nodiscard]] bool has_already(const http::Request& request, const std::string& etag);

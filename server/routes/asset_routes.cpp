@@ -1,9 +1,7 @@
 #include "server/routes/asset_routes.h"
 
-#include <nlohmann/json.hpp>
-
 #include "api/base64.h"
-#include "api/job.h"
+#include "api/refusal.h"
 #include "server/jobs/job_control.h"
 #include "server/jobs/job_intake.h"
 #include "server/routes/answers.h"
@@ -14,16 +12,9 @@ namespace {
 
 using http::Request;
 using http::Response;
-using Json = nlohmann::ordered_json;
-
-Json asset_json(const Asset& asset) {
-    return {{"id", asset.digest},
-            {"bytes", asset.bytes},
-            {"created_at", api::rfc3339(asset.created_ms)}};
-}
 
 Response asset_response(int status, const Asset& asset) {
-    Response response = json_response(status, asset_json(asset).dump());
+    Response response = json_response(status, to_json(asset));
     response.headers.emplace_back("ETag", "\"" + asset.digest + "\"");
     return response;
 }
@@ -40,20 +31,17 @@ void check_digest(const Request& request, std::string_view bytes) {
                             ? std::nullopt
                             : api::decode_base64(header.substr(begin + algorithm.size(),
                                                                end - begin - algorithm.size()));
-    if (!digest) refuse(400, "header_invalid", "Content-Digest is not sha-256=:BASE64: (RFC 9530)");
+    if (!digest) api::refuse("header_invalid", "Content-Digest is not sha-256=:BASE64: (RFC 9530)");
     if (hexadecimal(*digest) != sha256(bytes))
-        refuse(400, "digest_differs", "the body is not the one of Content-Digest; send it again");
+        api::refuse("digest_differs", "the body is not the one of Content-Digest; send it again");
 }
 
 [[noreturn]] void refuse_unknown(const std::string& id) {
-    refuse(404, "asset_not_found", "there is no asset " + id + "; it may have been deleted");
+    api::refuse("asset_not_found", "there is no asset " + id + "; it may have been deleted");
 }
 
 Response list_assets(const AssetServices& service, const Request& request) {
-    Json items = Json::array();
-    for (const Asset& asset : service.assets.list(request.principal))
-        items.push_back(asset_json(asset));
-    return json_response(200, Json{{"items", std::move(items)}}.dump());
+    return json_response(200, api::to_json(service.assets.list(request.principal)));
 }
 
 Response add_asset(const AssetServices& service, const Request& request) {
@@ -62,7 +50,7 @@ Response add_asset(const AssetServices& service, const Request& request) {
         if (part.name.empty() || part.name == "model") model = &part;
     }
     if (model == nullptr || model->bytes.empty())
-        refuse(422, "model_missing", "the model is empty: send it as the body or the part 'model'");
+        api::refuse("model_missing", "the model is empty: send it as the body or the part 'model'");
     check_digest(request, model->bytes);
     check_room(service.blobs, service.min_free_mb);
     AssetLimits limits;
@@ -76,12 +64,12 @@ Response add_asset(const AssetServices& service, const Request& request) {
     }
     if (admission == AssetAdmission::full) {
         drop_unneeded(service.blobs, service.jobs, {digest});
-        refuse(507, "assets_full",
-               "with this asset there would be more than " +
-                   std::to_string(service.assets_per_key_mb) + " MiB or " +
-                   std::to_string(limits.count) +
-                   " assets of this API key (the limit --assets-per-key-mb); delete some: "
-                   "GET /v1/assets lists them");
+        api::refuse("assets_full",
+                    "with this asset there would be more than " +
+                        std::to_string(service.assets_per_key_mb) + " MiB or " +
+                        std::to_string(limits.count) +
+                        " assets of this API key (the limit --assets-per-key-mb); delete some: "
+                        "GET /v1/assets lists them");
     }
     const auto asset = service.assets.find(request.principal, digest);
     if (!asset) refuse_unknown(digest);  // deleted meanwhile
@@ -110,10 +98,10 @@ std::vector<http::Route> asset_routes(const AssetServices& service) {
     const auto route = [&](const char* method, const char* pattern,
                            Response (*handle)(const AssetServices&, const Request&),
                            bool takes_body = false) {
-        return http::Route{method, pattern, guarded([service, handle](const Request& request) {
-                               return handle(service, request);
-                           }),
-                           takes_body};
+        return http::Route{
+            method, pattern,
+            [service, handle](const Request& request) { return handle(service, request); },
+            takes_body};
     };
     return {route("POST", "/v1/assets", add_asset, true), route("GET", "/v1/assets", list_assets),
             route("GET", "/v1/assets/{digest}", get_asset),

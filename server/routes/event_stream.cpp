@@ -1,9 +1,9 @@
 #include "server/routes/event_stream.h"
 
 #include <charconv>
-#include <nlohmann/json.hpp>
 
-#include "api/job.h"
+#include "api/job_event.h"
+#include "api/refusal.h"
 #include "server/jobs/job_control.h"
 #include "server/jobs/result_parts.h"
 #include "server/routes/answers.h"
@@ -12,7 +12,6 @@ namespace lastflat::server {
 namespace {
 
 using Clock = JobWatch::Clock;
-using Json = nlohmann::ordered_json;
 
 constexpr std::chrono::seconds heartbeat{15};
 /// A client that has gone is noticed at the latest then.
@@ -55,27 +54,16 @@ private:
     /// What the result says of the model and of itself.
     [[nodiscard]] std::string remarks(const JobRecord& job) const {
         if (job.state != JobState::succeeded || job.result.empty()) return {};
-        const auto log = [&](const Json& data) {
-            return event("log", std::to_string(job.revision), data.dump());
-        };
-        Json result;
+        std::vector<std::string> logs;
         try {
-            result =
-                Json::parse(result_bytes(service_.blobs, job, result_part(job, "metrics", false)));
-        } catch (const Refusal& refusal) {  // as whoever asks for the result will be told
-            return log({{"level", "error"},
-                        {"code", refusal.problem().code},
-                        {"detail", refusal.problem().detail}});
+            logs = api::log_events(
+                result_bytes(service_.blobs, job, result_part(job, "metrics", false)));
+        } catch (const api::Refusal& refusal) {  // as whoever asks for the result will be told
+            logs = {api::log_event(refusal.problem())};
         }
         std::string events;
-        for (const auto& [list, level] :
-             {std::pair("repairs", "info"), std::pair("warnings", "warning")}) {
-            for (const Json& remark : result.at(list)) {
-                Json data{{"level", level}};
-                data.update(remark);
-                events += log(data);
-            }
-        }
+        for (const std::string& log : logs)
+            events += event("log", std::to_string(job.revision), log);
         return events;
     }
 
@@ -90,23 +78,21 @@ private:
             if (change.revision > job->revision) break;
             seen_ = change.revision;
             progress_seen_ = 0;
-            const Json data{{"state", name(change.state)},
-                            {"at", api::rfc3339(change.at_ms)},
-                            {"attempt", change.attempt}};
-            news += event("state", std::to_string(seen_), data.dump());
+            news += event("state", std::to_string(seen_),
+                          to_json(api::StateEvent{change.state, change.at_ms, change.attempt}));
         }
         if (is_final(job->state)) {
             news += remarks(*job);
-            news += event("done", std::to_string(job->revision), service_.view.json(*job));
+            news += event("done", std::to_string(job->revision), to_json(service_.view.of(*job)));
             write(news);
             return false;
         }
         if (const auto progress = service_.watch.progress(id_);
             progress && job->state == JobState::running && progress->number != progress_seen_) {
             progress_seen_ = progress->number;
-            const Json data{{"stage", progress->stage},
-                            {"percent", static_cast<int>(100.0 * progress->fraction)}};
-            news += event("progress", std::to_string(seen_), data.dump());
+            const api::ProgressEvent reached{progress->stage,
+                                             static_cast<int>(100.0 * progress->fraction)};
+            news += event("progress", std::to_string(seen_), to_json(reached));
         }
         if (news.empty()) return true;
         last_sent_ = Clock::now();
@@ -136,16 +122,17 @@ http::Response events(const EventServices& service, const http::Request& request
                       accept.find("text/*") != std::string::npos ||
                       accept.find("*/*") != std::string::npos;
     if (!fits)
-        refuse(406, "not_acceptable", "this is text/event-stream; poll the job for JSON instead");
+        api::refuse("not_acceptable", "this is text/event-stream; poll the job for JSON instead");
     const JobRecord job = found_job(service.jobs, request.principal, request.captures.at(0));
     const std::int64_t seen = last_event(request);
     // What an EventSource asks after the end; this answer keeps it from asking again and again.
     if (is_final(job.state) && seen >= job.revision) return empty_response(204);
     const auto stream = std::make_shared<EventStream>(service, request, seen);
     if (!stream->has_seat())
-        refuse(503, "streams_full",
-               "all event streams and long polls are taken, or this key's half of them (the limit "
-               "--streams); poll the job");
+        api::refuse(
+            "streams_full",
+            "all event streams and long polls are taken, or this key's half of them (the limit "
+            "--streams); poll the job");
     http::Response response;
     response.media_type = "text/event-stream";
     response.headers.emplace_back("Cache-Control", "no-store");
@@ -158,7 +145,7 @@ http::Response events(const EventServices& service, const http::Request& request
 
 http::Route event_route(const EventServices& service) {
     return {"GET", "/v1/jobs/{id}/events",
-            guarded([service](const http::Request& request) { return events(service, request); })};
+            [service](const http::Request& request) { return events(service, request); }};
 }
 
 }  // namespace lastflat::server

@@ -3,7 +3,8 @@
 #include <charconv>
 
 #include "api/base64.h"
-#include "api/job.h"
+#include "api/refusal.h"
+#include "api/timestamp.h"
 #include "server/http/text.h"
 #include "server/routes/answers.h"
 #include "server/support/crypto.h"
@@ -41,38 +42,37 @@ std::int64_t position_of(const std::string& secret, const std::string& owner,
             return position;
         }
     }
-    refuse(400, "cursor_invalid", "the cursor is not one that this list gave");
+    api::refuse("cursor_invalid", "the cursor is not one that this list gave");
 }
 
 JobFilter filter_of(const std::string& secret, const Request& request) {
     JobFilter filter;
     for (const auto& [name, value] : request.query) {
         if (name == "state") {
-            filter.state = job_state_of(value);
+            filter.state = api::value_of(api::job_states, value);
             if (!filter.state)
-                refuse(400, "parameter_invalid",
-                       "state is one of queued, running, canceling, succeeded, failed, canceled");
+                api::refuse("parameter_invalid", "state is one of " + api::listed(api::job_states));
         } else if (name == "tag") {
             filter.tag = value;
         } else if (name == "created_after") {
             filter.created_after_ms = api::rfc3339_ms(value);
             if (!filter.created_after_ms)
-                refuse(400, "parameter_invalid",
-                       "created_after is a time such as 2026-03-01T08:00:00Z");
+                api::refuse("parameter_invalid",
+                            "created_after is a time such as 2026-03-01T08:00:00Z");
         } else if (name == "limit") {
             std::size_t limit = 0;
             const auto read = std::from_chars(value.data(), value.data() + value.size(), limit);
             if (read.ec != std::errc() || read.ptr != value.data() + value.size() || limit < 1 ||
                 limit > most_listed)
-                refuse(400, "parameter_invalid",
-                       "limit is a number from 1 to " + std::to_string(most_listed));
+                api::refuse("parameter_invalid",
+                            "limit is a number from 1 to " + std::to_string(most_listed));
             filter.limit = limit;
         } else if (name == "cursor") {
             filter.before = position_of(secret, request.principal, value);
         } else {
-            refuse(400, "parameter_unknown",
-                   "unknown parameter '" + name.substr(0, 40) +
-                       "'; known are state, tag, created_after, limit, cursor");
+            api::refuse("parameter_unknown",
+                        "unknown parameter '" + name.substr(0, 40) +
+                            "'; known are state, tag, created_after, limit, cursor");
         }
     }
     return filter;
@@ -82,24 +82,19 @@ Response list_jobs(JobStore& store, const JobView& view, const std::string& secr
                    const Request& request) {
     const JobFilter filter = filter_of(secret, request);
     const JobList jobs = store.list(request.principal, filter);
-    std::string text = "{\"items\":[";
-    for (const JobRecord& job : jobs.jobs) {
-        if (text.back() == '}') text += ",";
-        text += view.json(job);
-    }
-    text += "]";
+    api::JobList list;
+    for (const JobRecord& job : jobs.jobs) list.items.push_back(view.of(job));
     std::string link;
     if (jobs.next) {
-        const std::string cursor = cursor_of(secret, request.principal, *jobs.next);
-        text += ",\"next_cursor\":\"" + cursor + "\"";
+        list.next_cursor = cursor_of(secret, request.principal, *jobs.next);
         link = "</v1/jobs?limit=" + std::to_string(filter.limit);
         for (const char* name : {"state", "tag", "created_after"}) {
             if (const auto value = request.query.find(name); value != request.query.end())
                 link += "&" + std::string(name) + "=" + http::percent_encoded(value->second);
         }
-        link += "&cursor=" + cursor + ">; rel=\"next\"";
+        link += "&cursor=" + list.next_cursor + ">; rel=\"next\"";
     }
-    Response response = json_response(200, text + "}");
+    Response response = json_response(200, to_json(list));
     if (!link.empty()) response.headers.emplace_back("Link", link);
     return response;
 }
@@ -107,9 +102,9 @@ Response list_jobs(JobStore& store, const JobView& view, const std::string& secr
 }  // namespace
 
 http::Route job_list_route(JobStore& jobs, const JobView& view, const std::string& secret) {
-    return {"GET", "/v1/jobs", guarded([&jobs, &view, secret](const Request& request) {
+    return {"GET", "/v1/jobs", [&jobs, &view, secret](const Request& request) {
                 return list_jobs(jobs, view, secret, request);
-            })};
+            }};
 }
 
 }  // namespace lastflat::server

@@ -33,11 +33,11 @@ Response remove_job(const JobServices& service, const Request& request) {
 
 std::vector<http::Route> job_routes(const JobServices& service) {
     return {{"GET", "/v1/jobs/{id}",
-             guarded([service](const Request& request) { return get_job(service, request); })},
+             [service](const Request& request) { return get_job(service, request); }},
             {"DELETE", "/v1/jobs/{id}",
-             guarded([service](const Request& request) { return remove_job(service, request); })},
+             [service](const Request& request) { return remove_job(service, request); }},
             {"POST", "/v1/jobs/{id}/cancel",
-             guarded([service](const Request& request) { return cancel_job(service, request); })}};
+             [service](const Request& request) { return cancel_job(service, request); }}};
 }
 
 }  // namespace lastflat::server

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 
-#include "api/job.h"
 #include "server/support/clock.h"
 
 namespace lastflat::server {
 
-std::string JobView::json(const JobRecord& record) const {
+api::Job JobView::of(const JobRecord& record) const {
     api::Job job;
     job.id = record.id;
-    job.state = name(record.state);
+    job.state = record.state;
     if (record.state == JobState::canceling || record.state == JobState::canceled)
         job.reason = record.reason;
     job.tag = record.tag;
@@ -24,7 +23,6 @@ std::string JobView::json(const JobRecord& record) const {
     job.attempt = record.attempt;
     job.queue_position = record.queue_position;
     job.error = record.error;
-    job.stage = job.state;
     if (record.state == JobState::succeeded) job.percent = 100;
     if (record.state == JobState::running) {
         if (const auto progress = watch_.progress(record.id)) {
@@ -42,7 +40,7 @@ std::string JobView::json(const JobRecord& record) const {
             job.queue_s = *each * static_cast<double>(*record.queue_position) / workers;
         }
     }
-    return api::to_json(job);
+    return job;
 }
 
 std::string JobView::etag(const JobRecord& job) const {

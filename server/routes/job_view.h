@@ -13,7 +13,7 @@ public:
     JobView(const JobWatch& watch, const Estimate& estimate, std::size_t workers)
         : watch_(watch), estimate_(estimate), workers_(workers) {}
 
-    [[nodiscard]] std::string json(const JobRecord& job) const;
+    [[nodiscard]] api::Job of(const JobRecord& job) const;
     /// Changes with every change of state and every step of the progress.
     [[nodiscard]] std::string etag(const JobRecord& job) const;
 

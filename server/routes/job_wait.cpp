@@ -20,7 +20,7 @@ JobRecord JobWait::wait(const http::Request& request, JobRecord job, int seconds
 }
 
 http::Response job_response(const JobView& view, const JobRecord& job, int status) {
-    http::Response response = json_response(status, view.json(job));
+    http::Response response = json_response(status, to_json(view.of(job)));
     if (!is_final(job.state)) response.headers.emplace_back("Retry-After", "1");
     return response;
 }

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <charconv>
 
-#include "server/routes/answers.h"
+#include "api/refusal.h"
 
 namespace lastflat::server {
 namespace {
-
-constexpr ResultFormat all_formats[] = {ResultFormat::json, ResultFormat::svg, ResultFormat::glb,
-                                        ResultFormat::obj};
 
 std::string trimmed_lower(std::string_view text) {
     const auto begin = text.find_first_not_of(" \t");
@@ -56,56 +53,32 @@ double acceptance(std::string_view accept, const std::string& type) {
     return weight;
 }
 
-[[noreturn]] void refuse_format(int status, const char* code, const std::string& what) {
-    refuse(status, code,
-           what +
-               "; there are application/json, image/svg+xml, model/gltf-binary and model/obj "
-               "(format=json, svg, glb, obj)");
+[[noreturn]] void refuse_format(api::ProblemCode code, const std::string& what) {
+    api::refuse(code, what + "; there are " + api::listed(api::result_media_types) +
+                          " (format=" + api::listed(api::result_formats) + ")");
 }
 
 }  // namespace
 
-std::string media_type(ResultFormat format) {
-    switch (format) {
-        case ResultFormat::json: return "application/json";
-        case ResultFormat::svg: return "image/svg+xml";
-        case ResultFormat::glb: return "model/gltf-binary";
-        case ResultFormat::obj: return "model/obj";
-    }
-    return {};
-}
-
-std::string_view name(ResultFormat format) {
-    switch (format) {
-        case ResultFormat::json: return "json";
-        case ResultFormat::svg: return "svg";
-        case ResultFormat::glb: return "glb";
-        case ResultFormat::obj: return "obj";
-    }
-    return {};
-}
-
 ResultFormat negotiated_format(const http::Request& request) {
     if (const auto wanted = request.query.find("format"); wanted != request.query.end()) {
-        for (const ResultFormat format : all_formats) {
-            if (name(format) == wanted->second) return format;
-        }
-        refuse_format(400, "format_unknown",
+        if (const auto format = api::value_of(api::result_formats, wanted->second)) return *format;
+        refuse_format("format_unknown",
                       "there is no format '" + wanted->second.substr(0, 40) + "'");
     }
     const std::string_view accept = request.header("accept");
     if (accept.empty()) return ResultFormat::json;
     ResultFormat best = ResultFormat::json;
     double most = 0.0;
-    for (const ResultFormat format : all_formats) {
-        const double wanted = acceptance(accept, media_type(format));
+    for (const auto& type : api::result_media_types) {
+        const double wanted = acceptance(accept, std::string(type.word));
         if (wanted > most) {
             most = wanted;
-            best = format;
+            best = type.value;
         }
     }
     if (most <= 0.0)
-        refuse_format(406, "not_acceptable", "no format of the result fits the Accept header");
+        refuse_format("not_acceptable", "no format of the result fits the Accept header");
     return best;
 }
 
@@ -141,8 +114,8 @@ std::optional<ByteRange> wanted_range(const http::Request& request, std::uint64_
     if (has_first && has_last && *last < *first) return std::nullopt;
     const bool outside = size == 0 || (has_first ? *first >= size : *last == 0);
     if (outside) {
-        refuse(416, "range_outside",
-               "the range lies outside of the " + std::to_string(size) + " bytes there are");
+        api::refuse("range_outside",
+                    "the range lies outside of the " + std::to_string(size) + " bytes there are");
     }
     if (!has_first) return ByteRange{size - std::min(size, *last), size - 1};
     return ByteRange{*first, has_last ? std::min(*last, size - 1) : size - 1};

@@ -3,11 +3,12 @@
 
 #include <optional>
 
+#include "api/result_format.h"
 #include "server/http/http.h"
 
 namespace lastflat::server {
 
-enum class ResultFormat { json, svg, glb, obj };
+using api::ResultFormat;
 
 /// `?format=` decides; else `Accept`, by its weights, the first of ours among equals; JSON if
 /// neither is given.
@@ -16,10 +17,6 @@ enum class ResultFormat { json, svg, glb, obj };
 
 /// Whether `Accept-Encoding` takes gzip.
 [[nodiscard]] bool accepts_gzip(const http::Request& request);
-
-[[nodiscard]] std::string media_type(ResultFormat format);
-/// "json", "svg", "glb", "obj".
-[[nodiscard]] std::string_view name(ResultFormat format);
 
 struct ByteRange {
     std::uint64_t first = 0, last = 0;

@@ -1,7 +1,6 @@
 #include "server/routes/result_routes.h"
 
-#include <nlohmann/json.hpp>
-
+#include "api/refusal.h"
 #include "server/jobs/job_control.h"
 #include "server/jobs/result_parts.h"
 #include "server/routes/answers.h"
@@ -13,32 +12,20 @@ namespace {
 using http::Request;
 using http::Response;
 
-/// The job's own problem, as the answer to who asks for its result.
-[[noreturn]] void refuse_failed(const JobRecord& job) {
-    const auto problem = nlohmann::json::parse(job.error);
-    api::Problem answer;
-    answer.status = 409;
-    answer.code = problem.at("code");
-    answer.detail = "the job failed: " + problem.at("detail").get<std::string>();
-    if (problem.contains("pointer")) answer.pointer = problem.at("pointer");
-    if (problem.contains("position")) answer.position = problem.at("position");
-    throw Refusal(answer);
-}
-
 JobRecord finished_job(const ResultServices& service, const Request& request) {
     JobRecord job = found_job(service.jobs, request.principal, request.captures.at(0));
     switch (job.state) {
         case JobState::succeeded: break;
-        case JobState::failed: refuse_failed(job);
-        case JobState::canceled: refuse(409, "canceled", "the job was canceled; it has no result");
+        case JobState::failed: throw api::Refusal(api::without_result(job.error.value()));
+        case JobState::canceled: api::refuse("canceled", "the job was canceled; it has no result");
         case JobState::queued:
         case JobState::running:
         case JobState::canceling:
-            refuse(409, "not_finished",
-                   "the job is " + std::string(name(job.state)) + "; ask again later");
+            api::refuse("not_finished",
+                        "the job is " + std::string(name(job.state)) + "; ask again later");
     }
     if (job.result.empty())
-        refuse(410, "result_expired", "the result was kept as long as results are; it is gone");
+        api::refuse("result_expired", "the result was kept as long as results are; it is gone");
     return job;
 }
 
@@ -79,14 +66,16 @@ Response part_response(const ResultServices& service, const Request& request, co
 
 Response result_as(const ResultServices& service, const Request& request, ResultFormat format) {
     const JobRecord job = finished_job(service, request);
-    return part_response(service, request, job, name(format), media_type(format),
-                         job.id + "." + std::string(name(format)));
+    const std::string_view word = word_of(api::result_formats, format);
+    return part_response(service, request, job, word,
+                         std::string(word_of(api::result_media_types, format)),
+                         job.id + "." + std::string(word));
 }
 
 Response map_points(const ResultServices& service, const Request& request) {
     const JobRecord job = finished_job(service, request);
     if (request.body.size() != 1 || request.body[0].media_type != "application/json")
-        refuse(415, "media_type_unsupported", "what is to be mapped is JSON: application/json");
+        api::refuse("media_type_unsupported", "what is to be mapped is JSON: application/json");
     const std::string obj = result_bytes(service.blobs, job, result_part(job, "obj", false));
     return service.tasks.answer(request, Task::map, obj, request.body[0].bytes);
 }
@@ -95,23 +84,23 @@ Response map_points(const ResultServices& service, const Request& request) {
 
 std::vector<http::Route> result_routes(const ResultServices& service) {
     std::vector<http::Route> routes{
-        {"GET", "/v1/jobs/{id}/result", guarded([service](const Request& request) {
+        {"GET", "/v1/jobs/{id}/result",
+         [service](const Request& request) {
              return result_as(service, request, negotiated_format(request));
-         })},
-        {"GET", "/v1/jobs/{id}/metrics", guarded([service](const Request& request) {
+         }},
+        {"GET", "/v1/jobs/{id}/metrics",
+         [service](const Request& request) {
              const JobRecord job = finished_job(service, request);
              return part_response(service, request, job, "metrics", "application/json",
                                   job.id + ".metrics.json");
-         })},
+         }},
         {"POST", "/v1/jobs/{id}/map",
-         guarded([service](const Request& request) { return map_points(service, request); }),
-         true}};
-    for (const ResultFormat format :
-         {ResultFormat::json, ResultFormat::svg, ResultFormat::glb, ResultFormat::obj}) {
-        routes.push_back({"GET", "/v1/jobs/{id}/result." + std::string(name(format)),
-                          guarded([service, format](const Request& request) {
+         [service](const Request& request) { return map_points(service, request); }, true}};
+    for (const auto& [word, format] : api::result_formats) {
+        routes.push_back({"GET", "/v1/jobs/{id}/result." + std::string(word),
+                          [service, format = format](const Request& request) {
                               return result_as(service, request, format);
-                          })});
+                          }});
     }
     return routes;
 }

@@ -20,9 +20,9 @@ std::size_t part_for(std::string uri, const std::vector<const http::BodyPart*>& 
     const auto found = std::find_if(buffers.begin(), buffers.end(),
                                     [&](const auto* part) { return part->file_name == uri; });
     if (found == buffers.end())
-        refuse(422, "buffer_missing",
-               "the glTF refers to '" + uri.substr(0, 80) +
-                   "': send that file as a part 'buffers' with this file name");
+        api::refuse("buffer_missing",
+                    "the glTF refers to '" + uri.substr(0, 80) +
+                        "': send that file as a part 'buffers' with this file name");
     return static_cast<std::size_t>(found - buffers.begin());
 }
 
@@ -32,7 +32,7 @@ std::string with_buffers_inside(std::string_view gltf,
                                 const std::vector<const http::BodyPart*>& buffers) {
     if (gltf.find_first_not_of(" \t\r\n") == std::string::npos ||
         gltf[gltf.find_first_not_of(" \t\r\n")] != '{')
-        refuse(400, "part_unused", "only a glTF document (JSON) has buffers beside it");
+        api::refuse("part_unused", "only a glTF document (JSON) has buffers beside it");
     nlohmann::json document = api::parse_json(gltf, deepest_gltf);
     std::vector<bool> used(buffers.size(), false);
     if (document.contains("buffers") && document["buffers"].is_array()) {
@@ -49,8 +49,8 @@ std::string with_buffers_inside(std::string_view gltf,
     }
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         if (!used[i])
-            refuse(400, "part_unused",
-                   "no buffer of the glTF is called '" + buffers[i]->file_name.substr(0, 80) + "'");
+            api::refuse("part_unused", "no buffer of the glTF is called '" +
+                                           buffers[i]->file_name.substr(0, 80) + "'");
     }
     return document.dump();
 }

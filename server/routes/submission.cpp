@@ -5,7 +5,7 @@
 #include "api/base64.h"
 #include "api/flatten_request.h"
 #include "api/object_reader.h"
-#include "server/jobs/refusal.h"
+#include "api/refusal.h"
 #include "server/routes/side_files.h"
 #include "server/support/duration.h"
 #include "server/webhooks/post_message.h"
@@ -18,7 +18,7 @@ constexpr std::size_t longest_key = 255;
 /// Everything that can be found wrong without the model's geometry is found here.
 Submission checked(Submission submission, const api::FlattenRequest& request) {
     if (submission.model.empty() && submission.asset.empty())
-        refuse(422, "model_missing", "the model is empty (0 bytes)");
+        api::refuse("model_missing", "the model is empty (0 bytes)");
     submission.tag = request.tag;
     return submission;
 }
@@ -35,7 +35,7 @@ Submission from_parts(const http::Request& request) {
     for (const http::BodyPart& part : request.body) {
         const auto take = [&](const http::BodyPart*& place) {
             if (place != nullptr)
-                refuse(400, "part_repeated", "the part '" + part.name + "' is there twice");
+                api::refuse("part_repeated", "the part '" + part.name + "' is there twice");
             place = &part;
         };
         if (part.name == "model")
@@ -49,16 +49,17 @@ Submission from_parts(const http::Request& request) {
         else if (part.name == "buffers")
             buffers.push_back(&part);
         else
-            refuse(400, "part_unknown",
-                   "unknown part '" + part.name +
-                       "'; known are model, buffers, mtl, asset_id and request");
+            api::refuse("part_unknown",
+                        "unknown part '" + part.name +
+                            "'; known are model, buffers, mtl, asset_id and request");
     }
     if ((model == nullptr) == (asset == nullptr))
-        refuse(422, "model_missing",
-               "send either the part 'model', the last's file, or 'asset_id', an uploaded one");
+        api::refuse(
+            "model_missing",
+            "send either the part 'model', the last's file, or 'asset_id', an uploaded one");
     Submission submission;
     if (!buffers.empty() && model == nullptr)
-        refuse(400, "part_unused", "an asset is one file: it has no buffers beside it");
+        api::refuse("part_unused", "an asset is one file: it has no buffers beside it");
     if (model != nullptr) submission.model = model->bytes;
     if (!buffers.empty()) submission.make_model(with_buffers_inside(model->bytes, buffers));
     if (asset != nullptr) submission.asset = asset->bytes;
@@ -68,13 +69,13 @@ Submission from_parts(const http::Request& request) {
 
 Submission from_model_alone(const http::Request& request) {
     const auto constraints = api::decode_base64(request.header("x-flatten-constraints"));
-    if (!constraints) refuse(400, "header_invalid", "X-Flatten-Constraints is not base64url");
+    if (!constraints) api::refuse("header_invalid", "X-Flatten-Constraints is not base64url");
     Submission submission;
     if (const auto asset = request.query.find("asset_id"); asset != request.query.end())
         submission.asset = asset->second;
     if (!request.body.empty()) submission.model = request.body.front().bytes;
     if (!submission.asset.empty() && !submission.model.empty())
-        refuse(400, "model_repeated", "there is a model in the body beside ?asset_id=; send one");
+        api::refuse("model_repeated", "there is a model in the body beside ?asset_id=; send one");
     submission.request = *constraints;
     return checked(std::move(submission));
 }
@@ -92,33 +93,30 @@ std::string idempotency_key(const http::Request& request) {
     if (key.size() >= 2 && key.front() == '"' && key.back() == '"')
         key = key.substr(1, key.size() - 2);
     if (key.empty() && request.headers.contains("idempotency-key"))
-        refuse(400, "header_invalid", "Idempotency-Key is empty");
+        api::refuse("header_invalid", "Idempotency-Key is empty");
     if (key.size() > longest_key)
-        refuse(400, "header_invalid",
-               "Idempotency-Key has more than " + std::to_string(longest_key) + " bytes");
+        api::refuse("header_invalid",
+                    "Idempotency-Key has more than " + std::to_string(longest_key) + " bytes");
     return std::string(key);
 }
 
 }  // namespace
 
-Submission read_json_submission(std::string_view text) {
-    api::JsonSubmission json = api::json_submission_from_json(text);
+Submission submission_of(api::JsonSubmission json) {
     Submission submission;
     submission.make_model(std::move(json.model));
     submission.asset = std::move(json.asset_id);
     submission.request = std::move(json.request_text);
-    if (json.webhook) {
-        if (!is_webhook_url(json.webhook->url))
-            throw api::InvalidRequest("/webhook/url", not_a_webhook_url);
-        submission.webhook = {json.webhook->url, json.webhook->secret, json.webhook->events};
-    }
+    if (json.webhook && !is_webhook_url(json.webhook->url))
+        throw api::InvalidRequest("/webhook/url", not_a_webhook_url);
+    submission.webhook = std::move(json.webhook);
     return checked(std::move(submission), json.request);
 }
 
 Submission read_submission(const http::Request& request) {
     if (is_form(request)) return from_parts(request);
     if (!request.body.empty() && request.body.front().media_type == "application/json")
-        return read_json_submission(request.body.front().bytes);
+        return submission_of(api::json_submission_from_json(request.body.front().bytes));
     return from_model_alone(request);
 }
 
@@ -127,7 +125,7 @@ void read_terms(const http::Request& request, Submission& submission) {
     submission.idempotency_key = idempotency_key(request);
     submission.cancel_after = request.header("cancel-after");
     if (!submission.cancel_after.empty() && !duration_ms(submission.cancel_after))
-        refuse(400, "header_invalid", "Cancel-After is not a duration such as 90s, 2m or 1h");
+        api::refuse("header_invalid", "Cancel-After is not a duration such as 90s, 2m or 1h");
 }
 
 }  // namespace lastflat::server

@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "api/submission.h"
 #include "server/http/http.h"
 #include "server/jobs/job_intake.h"
 
@@ -16,8 +17,8 @@ namespace lastflat::server {
 /// Throws: Refusal, api::InvalidRequest.
 [[nodiscard]] Submission read_submission(const http::Request& request);
 
-/// One submission as JSON: {"model": {"data" | "asset_id"}, "request": {...}, "webhook": {...}}.
-[[nodiscard]] Submission read_json_submission(std::string_view text);
+/// Throws as above.
+[[nodiscard]] Submission submission_of(api::JsonSubmission json);
 
 /// Who sends it, and what the headers Idempotency-Key and Cancel-After say of it.
 /// Throws: Refusal (400).

@@ -14,13 +14,11 @@ constexpr std::size_t most_waiting_body = 16u << 20;
 
 /// The job with its result inside.
 Response finished_response(const SubmitServices& service, const JobRecord& job) {
-    std::string text = service.view.json(job);
-    if (job.state == JobState::succeeded && !job.result.empty()) {
-        text.pop_back();
-        text += ",\"result\":" + result_bytes(service.blobs, job, result_part(job, "json", false)) +
-                "}";
-    }
-    return json_response(200, std::move(text));
+    const api::Job view = service.view.of(job);
+    if (job.state != JobState::succeeded || job.result.empty())
+        return json_response(200, to_json(view));
+    return json_response(
+        200, to_json(view, result_bytes(service.blobs, job, result_part(job, "json", false))));
 }
 
 std::size_t body_bytes(const Request& request) {
@@ -68,11 +66,10 @@ Response put_job(const SubmitServices& service, const Request& request) {
 }  // namespace
 
 std::vector<http::Route> submit_routes(const SubmitServices& service) {
-    return {
-        {"POST", "/v1/jobs",
-         guarded([service](const Request& request) { return post_job(service, request); }), true},
-        {"PUT", "/v1/jobs/{id}",
-         guarded([service](const Request& request) { return put_job(service, request); }), true}};
+    return {{"POST", "/v1/jobs",
+             [service](const Request& request) { return post_job(service, request); }, true},
+            {"PUT", "/v1/jobs/{id}",
+             [service](const Request& request) { return put_job(service, request); }, true}};
 }
 
 }  // namespace lastflat::server

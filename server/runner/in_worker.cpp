@@ -40,10 +40,8 @@ RunTask run_tasks_in_workers(const ProcessLimits& limits, const std::filesystem:
     const auto slots = std::make_shared<std::counting_semaphore<>>(most_tasks);
     return [slots, work, ends = std::move(ends), limits](Task task, std::string_view model,
                                                          std::string_view request) {
-        ProcessEnd end;
-        end.kind = ProcessEnd::Kind::stopped;
         while (!slots->try_acquire_for(look_every)) {
-            if (ends()) return end;
+            if (ends()) return ProcessEnd(Unfinished{Unfinished::Kind::stopped, {}});
         }
         const std::filesystem::path file = work / ("task-" + new_job_id());
         const ScopeExit clear([&] {

@@ -1,8 +1,5 @@
 #include "server/runner/runner_pool.h"
 
-#include <nlohmann/json.hpp>
-
-#include "api/problem_json.h"
 #include "server/jobs/job_control.h"
 #include "server/support/clock.h"
 
@@ -15,43 +12,41 @@ constexpr std::chrono::milliseconds storage_pause{1000};
 /// A row that another process has put into the queue is found at the latest then.
 constexpr std::chrono::milliseconds look_again{2000};
 
-std::string problem_text(int status, const char* code, const std::string& detail) {
-    return api::to_json(api::Problem{status, code, "", detail, std::nullopt, std::nullopt});
-}
-
-/// The outcome of a run that ended by itself or by its own fault; nothing: it may be run again.
-std::optional<JobOutcome> outcome_of(const Claim& claim, ProcessEnd& end) {
-    JobOutcome outcome = std::move(end.outcome);
-    switch (end.kind) {
-        case ProcessEnd::Kind::finished: return outcome;
-        case ProcessEnd::Kind::crashed:
-            outcome.error = problem_text(500, "worker_crashed",
-                                         "the program broke on this model; the service goes on. "
-                                         "Send the model to those who run it");
-            return outcome;
-        case ProcessEnd::Kind::timed_out:
-            outcome.error = problem_text(422, "job_too_slow",
-                                         "the job took longer than a job may (the limit "
-                                         "--job-time); send a coarser model");
-            return outcome;
-        case ProcessEnd::Kind::lost:
+/// How the job ends; nothing: it may be run again.
+std::optional<JobEnd> end_of(const Claim& claim, Unfinished::Kind run) {
+    switch (run) {
+        case Unfinished::Kind::crashed:
+            return Failed{{"worker_crashed",
+                           "the program broke on this model; the service goes on. Send the model "
+                           "to those who run it"}};
+        case Unfinished::Kind::timed_out:
+            return Failed{{"job_too_slow",
+                           "the job took longer than a job may (the limit --job-time); send a "
+                           "coarser model"}};
+        case Unfinished::Kind::lost:
             if (claim.attempt < most_attempts) return std::nullopt;
-            outcome.error = worker_lost_problem();
-            return outcome;
-        case ProcessEnd::Kind::retry:
+            return Failed{worker_lost_problem()};
+        case Unfinished::Kind::retry:
             if (claim.retries < most_retries) return std::nullopt;
-            outcome.error = problem_text(507, "storage_full",
-                                         "there was no room on the disk for the result, for an "
-                                         "hour; post the job again when there is");
-            return outcome;
-        case ProcessEnd::Kind::stopped: return std::nullopt;
+            return Failed{{"storage_full",
+                           "there was no room on the disk for the result, for an hour; post the "
+                           "job again when there is"}};
+        case Unfinished::Kind::stopped: return std::nullopt;
     }
     return std::nullopt;
 }
 
-Release why_released(ProcessEnd::Kind kind) {
-    if (kind == ProcessEnd::Kind::lost) return Release::lost;
-    return kind == ProcessEnd::Kind::retry ? Release::later : Release::unfinished;
+std::optional<JobEnd> end_of(const Claim& claim, const ProcessEnd& run) {
+    if (const auto* succeeded = std::get_if<Succeeded>(&run)) return *succeeded;
+    if (const auto* failed = std::get_if<Failed>(&run)) return *failed;
+    const auto* unfinished = std::get_if<Unfinished>(&run);
+    return end_of(claim, unfinished != nullptr ? unfinished->kind : Unfinished::Kind::crashed);
+}
+
+Release why_released(const ProcessEnd& run) {
+    const auto kind = std::get<Unfinished>(run).kind;
+    if (kind == Unfinished::Kind::lost) return Release::lost;
+    return kind == Unfinished::Kind::retry ? Release::later : Release::unfinished;
 }
 
 }  // namespace
@@ -184,10 +179,9 @@ void RunnerPool::run(const Claim& claim) {
     try {
         end = run_job_(claim, file, control);
     } catch (const std::exception& error) {
-        end.kind = ProcessEnd::Kind::retry;
-        end.why = error.what();
+        end = Unfinished{Unfinished::Kind::retry, error.what()};
     }
-    report.why = end.why;
+    if (const auto* unfinished = std::get_if<Unfinished>(&end)) report.why = unfinished->why;
     const auto state = settle(claim, end, file);
     report.outcome = state ? name(*state) : "lost";
     std::error_code gone;
@@ -211,22 +205,23 @@ bool RunnerPool::persist(const std::function<void()>& change) {
     }
 }
 
-std::optional<JobState> RunnerPool::settle(const Claim& claim, ProcessEnd& end,
+std::optional<JobState> RunnerPool::settle(const Claim& claim, const ProcessEnd& run,
                                            const std::filesystem::path& file) {
     std::optional<JobState> state;
-    const auto outcome = outcome_of(claim, end);
+    const auto end = end_of(claim, run);
+    const auto* succeeded = end ? std::get_if<Succeeded>(&*end) : nullptr;
     const bool kept = persist([&] {
         const auto pin = blobs_.pin();
-        if (!outcome) {
-            state = store_.release(claim.lease, why_released(end.kind));
+        if (!end) {
+            state = store_.release(claim.lease, why_released(run));
             return;
         }
-        if (!outcome->result.empty()) blobs_.adopt(file, outcome->result);
-        state = store_.finish(claim.lease, *outcome);
+        if (succeeded != nullptr) blobs_.adopt(file, succeeded->result);
+        state = store_.finish(claim.lease, *end);
     });
     if (!kept) return std::nullopt;
     std::vector<std::string> blobs{claim.model};
-    if (outcome && !outcome->result.empty()) blobs.push_back(outcome->result);
+    if (succeeded != nullptr) blobs.push_back(succeeded->result);
     try {
         drop_unneeded(blobs_, store_, blobs);
     } catch (const StoreError&) {

@@ -62,7 +62,7 @@ private:
     [[nodiscard]] std::optional<Claim> try_claim();
     void run(const Claim& claim);
     [[nodiscard]] bool must_stop(const Claim& claim, std::int64_t& renewed_ms);
-    [[nodiscard]] std::optional<JobState> settle(const Claim& claim, ProcessEnd& end,
+    [[nodiscard]] std::optional<JobState> settle(const Claim& claim, const ProcessEnd& run,
                                                  const std::filesystem::path& file);
     /// Tries until the store can; false if the service ends before it could.
     [[nodiscard]] bool persist(const std::function<void()>& change);

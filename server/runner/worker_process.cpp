@@ -149,10 +149,10 @@ public:
         std::size_t begin = 0;
         for (std::size_t end; (end = worker_.messages.find('\n', begin)) != std::string::npos;
              begin = end + 1) {
-            const auto message =
+            auto message =
                 work_message_of(std::string_view(worker_.messages).substr(begin, end - begin));
             if (!message) return false;
-            take(*message);
+            std::visit([this](auto& said) { take(said); }, *message);
         }
         worker_.messages.erase(0, begin);
         return worker_.messages.size() <= most_message_bytes;
@@ -160,26 +160,23 @@ public:
 
     [[nodiscard]] ProcessEnd ended(int status) {
         if (result_) return std::move(*result_);
-        ProcessEnd end;
+        Unfinished end;
         end.why = WIFSIGNALED(status) ? std::string("signal ") + ::strsignal(WTERMSIG(status))
                                       : "exit code " + std::to_string(WEXITSTATUS(status));
         if (!worker_.said.empty()) end.why += ": " + worker_.said;
         if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-            end.kind = ProcessEnd::Kind::timed_out;
+            end.kind = Unfinished::Kind::timed_out;
         // Nobody but the kernel, short of memory, or an operator ends a worker like that.
-        if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) end.kind = ProcessEnd::Kind::lost;
+        if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) end.kind = Unfinished::Kind::lost;
         return end;
     }
 
 private:
-    void take(const WorkMessage& message) {
-        if (message.progress)
-            return control_.on_progress(message.progress->first, message.progress->second);
-        result_.emplace();
-        result_->kind = message.retry ? ProcessEnd::Kind::retry : ProcessEnd::Kind::finished;
-        result_->outcome = message.outcome.value_or(JobOutcome{});
-        result_->report = message.report.value_or("");
-        result_->why = message.retry.value_or("");
+    void take(StageReached& reached) { control_.on_progress(reached.stage, reached.fraction); }
+    void take(Retry& retry) { result_ = Unfinished{Unfinished::Kind::retry, std::move(retry.why)}; }
+    template <class End>
+    void take(End& end) {
+        result_ = std::move(end);
     }
 
     Worker& worker_;
@@ -203,19 +200,17 @@ ProcessEnd run_worker_process(WorkOrder order, const ProcessLimits& limits,
     const auto deadline = Clock::now() + limits.time;
     Worker worker(order, limits.program);
     Supervision supervision(worker, control);
-    const auto stop = [&](ProcessEnd::Kind kind, const char* why) {
+    using Kind = Unfinished::Kind;
+    const auto stop = [&](Kind kind, const char* why) {
         worker.kill();
-        ProcessEnd end;
-        end.kind = kind;
-        end.why = why;
-        return end;
+        return Unfinished{kind, why};
     };
     while (worker.read()) {
-        if (!supervision.follow()) return stop(ProcessEnd::Kind::crashed, "it said nonsense");
-        if (control.must_stop()) return stop(ProcessEnd::Kind::stopped, "");
-        if (Clock::now() > deadline) return stop(ProcessEnd::Kind::timed_out, "");
+        if (!supervision.follow()) return stop(Kind::crashed, "it said nonsense");
+        if (control.must_stop()) return stop(Kind::stopped, "");
+        if (Clock::now() > deadline) return stop(Kind::timed_out, "");
     }
-    if (!supervision.follow()) return stop(ProcessEnd::Kind::crashed, "it said nonsense");
+    if (!supervision.follow()) return stop(Kind::crashed, "it said nonsense");
     return supervision.ended(worker.wait());
 }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <string>
+#include <variant>
 
 #include "server/protocol/work_messages.h"
 
@@ -18,19 +19,19 @@ struct ProcessLimits {
     std::chrono::milliseconds time{300'000};
 };
 
-struct ProcessEnd {
+/// A run that came to no end of its own.
+struct Unfinished {
     enum class Kind {
-        finished,  ///< `outcome` or `report` says how
-        retry,     ///< not the job's fault: `why`
-        lost,      ///< somebody killed it: `why`
-        crashed,   ///< `why`
+        retry,  ///< not the job's fault
+        lost,   ///< somebody killed it
+        crashed,
         timed_out,
         stopped  ///< because `must_stop` said so
     };
     Kind kind = Kind::crashed;
-    JobOutcome outcome;
-    std::string report, why;
+    std::string why;  ///< for the operator
 };
+using ProcessEnd = std::variant<Succeeded, Failed, Report, Unfinished>;
 
 struct ProcessControl {
     std::function<void(const std::string& stage, double fraction)> on_progress;

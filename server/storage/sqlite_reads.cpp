@@ -80,8 +80,7 @@ std::vector<StateChange> SqliteStore::history(const std::string& id, std::int64_
         query.bind(id, after);
         std::vector<StateChange> changes;
         while (query.next()) {
-            changes.push_back({query.number(0), query.number(1),
-                               job_state_of(query.text(2)).value_or(JobState::failed),
+            changes.push_back({query.number(0), query.number(1), state_of(query.text(2)),
                                static_cast<int>(query.number(3))});
         }
         return changes;

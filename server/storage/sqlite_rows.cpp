@@ -1,17 +1,10 @@
 #include "server/storage/sqlite_rows.h"
 
-#include "api/job.h"
 #include "server/jobs/result_parts.h"
 #include "server/support/clock.h"
 
 namespace lastflat::server {
 namespace {
-
-JobState state_of(const std::string& word) {
-    const auto state = job_state_of(word);
-    if (!state) throw StoreError("the database has a job in the unknown state '" + word + "'");
-    return *state;
-}
 
 JobRow row_of(const Query& query) {
     return {query.number(0),
@@ -24,6 +17,12 @@ JobRow row_of(const Query& query) {
 }
 
 }  // namespace
+
+JobState state_of(const std::string& word) {
+    const auto state = api::value_of(api::job_states, word);
+    if (!state) throw StoreError("the database has a job in the unknown state '" + word + "'");
+    return *state;
+}
 
 JobRecord record_of(const Query& query, const Retention& retention) {
     JobRecord job;
@@ -41,7 +40,8 @@ JobRecord record_of(const Query& query, const Retention& retention) {
     job.cancel_at_ms = query.maybe_number(12);
     job.attempt = static_cast<int>(query.number(13));
     job.revision = query.number(14);
-    job.error = query.text(15);
+    if (const auto error = query.text(15); !error.empty())
+        job.error = api::problem_from_json(error);
     job.result = query.text(16);
     job.model = query.text(18);
     job.parts = result_parts_of(query.text(17));
@@ -71,16 +71,14 @@ std::optional<JobRow> leased_row(SqliteConnection& connection, const Lease& leas
 }
 
 bool add_delivery(SqliteConnection& connection, const std::string& webhook,
-                  const std::string& event, const nlohmann::ordered_json& data, int most_pending) {
-    const std::int64_t now = now_ms();
-    const nlohmann::ordered_json payload{
-        {"type", event}, {"timestamp", api::rfc3339(now)}, {"data", data}};
+                  const api::WebhookMessage& message, int most_pending) {
     return Query(connection.prepared(
                      "INSERT INTO deliveries (id, webhook, event, payload, created_ms, next_ms) "
                      "SELECT ?1, ?2, ?3, ?4, ?5, ?5 FROM webhooks WHERE id = ?2 AND "
                      "(SELECT count(*) FROM deliveries WHERE webhook = ?2 AND "
                      "next_ms IS NOT NULL) < ?6"))
-               .bind("msg_" + new_job_id(), webhook, event, payload.dump(), now, most_pending)
+               .bind("msg_" + new_job_id(), webhook, type_of(message), to_json(message),
+                     message.at_ms, most_pending)
                .run() > 0;
 }
 
@@ -88,8 +86,8 @@ void add_webhook(SqliteConnection& connection, const Webhook& webhook, const std
     Query(connection.prepared(
               "INSERT INTO webhooks (id, owner, url, secret, events, created_ms, job) "
               "VALUES (?, ?, ?, ?, ?, ?, ?)"))
-        .bind(webhook.id, webhook.owner, webhook.url, webhook.secret, webhook.events,
-              webhook.created_ms, job)
+        .bind(webhook.id, webhook.owner, webhook.url, webhook.secret,
+              api::event_names(webhook.events), webhook.created_ms, job)
         .run();
 }
 
@@ -106,23 +104,20 @@ void note_change(SqliteConnection& connection, const JobRow& row) {
 
 /// A message to each webhook of the job's owner, and to the job's own, that wants this state.
 void tell_webhooks(SqliteConnection& connection, const JobRow& row) {
-    const std::string event = "job." + std::string(name(row.state));
     Query query(
         connection.prepared("SELECT w.id, j.tag FROM webhooks w JOIN jobs j ON j.owner = w.owner "
                             "AND w.job IN ('', j.id) WHERE j.seq = ?1 AND instr(' ' || w.events || "
                             "' ', ' ' || ?2 || ' ') > 0"));
-    query.bind(row.seq, event);
+    query.bind(row.seq, api::word_of(api::webhook_events, row.state));
     std::vector<std::string> webhooks;
     std::string tag;
     while (query.next()) {
         webhooks.push_back(query.text(0));
         tag = query.text(1);
     }
-    for (const std::string& webhook : webhooks) {
-        nlohmann::ordered_json data{{"id", row.id}, {"state", name(row.state)}};
-        if (!tag.empty()) data["tag"] = tag;
-        (void)add_delivery(connection, webhook, event, data, most_pending_messages);
-    }
+    const api::WebhookMessage message{now_ms(), api::JobEnded{row.id, row.state, tag}};
+    for (const std::string& webhook : webhooks)
+        (void)add_delivery(connection, webhook, message, most_pending_messages);
 }
 
 void change_state(SqliteConnection& connection, JobRow& row, JobState to,

@@ -1,8 +1,6 @@
 // What the statements about jobs have in common.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include "server/jobs/job_store.h"
 #include "server/jobs/webhook_store.h"
 #include "server/storage/sqlite.h"
@@ -16,6 +14,9 @@ struct JobRow {
     int attempt = 0;
     std::string id, model, result;
 };
+
+/// Throws: StoreError if it is none.
+[[nodiscard]] JobState state_of(const std::string& word);
 
 /// The columns of `record_of`.
 inline constexpr char record_columns[] =
@@ -43,8 +44,7 @@ inline constexpr int most_pending_messages = 1000;
 /// A message to a webhook, to be sent at once. False: there is no such webhook any more, or too
 /// many of its messages wait.
 [[nodiscard]] bool add_delivery(SqliteConnection& connection, const std::string& webhook,
-                                const std::string& event, const nlohmann::ordered_json& data,
-                                int most_pending);
+                                const api::WebhookMessage& message, int most_pending);
 
 /// `job`: the only one that it tells of; empty: every job of its owner.
 void add_webhook(SqliteConnection& connection, const Webhook& webhook, const std::string& job);

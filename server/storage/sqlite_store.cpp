@@ -58,8 +58,8 @@ void insert(SqliteConnection& connection, const NewJob& job) {
     note_change(connection, row);
     if (job.webhook) {
         add_webhook(connection,
-                    {job.id, job.owner, job.webhook->url, job.webhook->secret, job.webhook->events,
-                     now_ms()},
+                    {{job.id, job.webhook->url, job.webhook->secret, job.webhook->events, now_ms()},
+                     job.owner},
                     job.id);
     }
     if (job.idempotency_key.empty()) return;
@@ -74,7 +74,7 @@ std::vector<std::string> ids_of(Query& query) {
     return ids;
 }
 
-void end_lost_leases(SqliteConnection& connection, bool all, const std::string& lost,
+void end_lost_leases(SqliteConnection& connection, bool all, const api::Problem& lost,
                      Swept& swept) {
     Query over(
         connection.prepared("SELECT id FROM jobs WHERE state IN ('running', 'canceling') "
@@ -86,7 +86,7 @@ void end_lost_leases(SqliteConnection& connection, bool all, const std::string& 
         } else if (row.attempt >= most_attempts) {
             change_state(connection, row, JobState::failed);
             Query(connection.prepared("UPDATE jobs SET error = ? WHERE seq = ?"))
-                .bind(lost, row.seq)
+                .bind(to_json(lost), row.seq)
                 .run();
         } else {
             change_state(connection, row, JobState::queued);
@@ -201,7 +201,7 @@ Hold SqliteStore::renew(const Lease& lease, std::int64_t lease_ms) {
     });
 }
 
-std::optional<JobState> SqliteStore::finish(const Lease& lease, const JobOutcome& outcome) {
+std::optional<JobState> SqliteStore::finish(const Lease& lease, const JobEnd& end) {
     return database_.write([&](SqliteConnection& connection) -> std::optional<JobState> {
         auto row = leased_row(connection, lease);
         if (!row) return std::nullopt;
@@ -209,12 +209,18 @@ std::optional<JobState> SqliteStore::finish(const Lease& lease, const JobOutcome
             change_state(connection, *row, JobState::canceled);
             return row->state;
         }
-        const bool succeeded = outcome.error.empty();
-        change_state(connection, *row, succeeded ? JobState::succeeded : JobState::failed);
-        Query(connection.prepared("UPDATE jobs SET result = ?, parts = ?, error = ? WHERE seq = ?"))
-            .bind(outcome.result, succeeded ? to_json(outcome.parts) : std::string(), outcome.error,
-                  row->seq)
-            .run();
+        if (const auto* failed = std::get_if<Failed>(&end)) {
+            change_state(connection, *row, JobState::failed);
+            Query(connection.prepared("UPDATE jobs SET error = ? WHERE seq = ?"))
+                .bind(to_json(failed->problem), row->seq)
+                .run();
+        } else {
+            const auto& [result, parts] = std::get<Succeeded>(end);
+            change_state(connection, *row, JobState::succeeded);
+            Query(connection.prepared("UPDATE jobs SET result = ?, parts = ? WHERE seq = ?"))
+                .bind(result, to_json(parts), row->seq)
+                .run();
+        }
         return row->state;
     });
 }
@@ -264,7 +270,7 @@ std::optional<std::vector<std::string>> SqliteStore::remove(const std::string& o
         });
 }
 
-Swept SqliteStore::sweep(bool all_leases, const std::string& lost) {
+Swept SqliteStore::sweep(bool all_leases, const api::Problem& lost) {
     return database_.write([&](SqliteConnection& connection) {
         Swept swept;
         end_lost_leases(connection, all_leases, lost, swept);

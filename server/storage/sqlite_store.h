@@ -22,14 +22,13 @@ public:
     [[nodiscard]] JobCounts counts() override;
     [[nodiscard]] std::optional<Claim> claim(std::int64_t lease_ms) override;
     [[nodiscard]] Hold renew(const Lease& lease, std::int64_t lease_ms) override;
-    [[nodiscard]] std::optional<JobState> finish(const Lease& lease,
-                                                 const JobOutcome& outcome) override;
+    [[nodiscard]] std::optional<JobState> finish(const Lease& lease, const JobEnd& end) override;
     [[nodiscard]] std::optional<JobState> release(const Lease& lease, Release why) override;
     [[nodiscard]] std::optional<JobState> cancel(const std::string& owner,
                                                  const std::string& id) override;
     [[nodiscard]] std::optional<std::vector<std::string>> remove(const std::string& owner,
                                                                  const std::string& id) override;
-    [[nodiscard]] Swept sweep(bool all_leases, const std::string& lost) override;
+    [[nodiscard]] Swept sweep(bool all_leases, const api::Problem& lost) override;
     [[nodiscard]] bool needs_blob(const std::string& digest) override;
 
 private:

@@ -9,22 +9,17 @@ namespace {
 constexpr int most_listed = 100, most_pending_tests = 10;
 
 Webhook webhook_of(const Query& query) {
-    return {query.text(0), query.text(1), query.text(2),
-            query.text(3), query.text(4), query.number(5)};
+    return {{query.text(0), query.text(2), query.text(3), api::named_events(query.text(4)),
+             query.number(5)},
+            query.text(1)};
 }
 
 Delivery delivery_of(const Query& query) {
-    return {query.number(0),
-            query.text(1),
-            query.text(2),
-            query.text(3),
-            query.text(4),
-            query.number(5),
-            static_cast<int>(query.number(6)),
-            query.maybe_number(7),
-            query.number(8) != 0,
-            static_cast<int>(query.number(9)),
-            query.text(10)};
+    return {{query.text(1), query.text(3), query.text(4), query.number(5),
+             static_cast<int>(query.number(6)), query.maybe_number(7), query.number(8) != 0,
+             static_cast<int>(query.number(9)), query.text(10)},
+            query.number(0),
+            query.text(2)};
 }
 
 std::optional<Webhook> find_webhook(SqliteConnection& connection, const std::string& owner,
@@ -81,7 +76,7 @@ std::vector<Delivery> SqliteWebhooks::deliveries(const std::string& id) {
 
 bool SqliteWebhooks::add_test(const std::string& id) {
     return database_.write([&](SqliteConnection& connection) {
-        return add_delivery(connection, id, "test", {{"webhook", id}}, most_pending_tests);
+        return add_delivery(connection, id, {now_ms(), api::WebhookTest{id}}, most_pending_tests);
     });
 }
 

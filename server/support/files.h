@@ -2,19 +2,23 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "api/refusal.h"
 #include "server/support/descriptor.h"
 
 namespace lastflat::server {
 
 /// The store cannot do its work now (a full or broken disk, a locked database). What was asked for
 /// did not happen; it may be asked for again.
-class StoreError : public std::runtime_error {
+class StoreError : public api::Refusal {
 public:
-    using std::runtime_error::runtime_error;
+    explicit StoreError(const std::string& why)
+        : Refusal({"store_unavailable",
+                   "the service cannot store or read its data now (a full or broken disk?); "
+                   "nothing was changed, try again later"},
+                  why) {}
 };
 
 /// An open file that knows its path, for those who have to be told what went wrong with it.

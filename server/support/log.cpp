@@ -3,7 +3,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include "api/job.h"
+#include "api/timestamp.h"
 #include "server/support/clock.h"
 
 namespace lastflat::server {

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "api/base64.h"
-#include "api/webhook_request.h"
+#include "api/webhook.h"
 #include "server/support/clock.h"
 #include "server/support/crypto.h"
 #include "server/webhooks/private_address.h"

@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/map_request.h"
-#include "api/problem_json.h"
 #include "core/map/pattern_map.h"
-#include "server/worker/problem_map.h"
 
 namespace lastflat::server {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double step_mm = 1.0;
 constexpr std::size_t most_steps = 1'000'000;  ///< of all lines of a request
@@ -32,97 +27,67 @@ void walk(const std::vector<Point>& corners, std::size_t& left, const Visit& vis
     }
 }
 
-template <class Point, class Wire>
-std::vector<Point> points_of(const std::vector<Wire>& wire) {
-    std::vector<Point> points;
-    points.reserve(wire.size());
-    for (const Wire& p : wire) points.push_back(Eigen::Map<const Point>(p.data()));
-    return points;
-}
-
-Json pair(const Vec2& p) {
-    return {p.x(), p.y()};
-}
-Json triple(const Vec3& p) {
-    return {p.x(), p.y(), p.z()};
-}
-
-Json to_pattern(const PatternMap& map, const api::Drawing<3>& drawing) {
+api::Mapped::ToPattern to_pattern(const PatternMap& map, const api::Drawing<Vec3>& drawing) {
     const auto region =
         drawing.region.empty() ? std::nullopt : std::optional<std::string>(drawing.region);
-    Json points = Json::array(), lines = Json::array();
-    for (const Vec3& point : points_of<Vec3>(drawing.points)) {
+    api::Mapped::ToPattern mapped;
+    for (const Vec3& point : drawing.points) {
         const auto at = map.to_pattern(point, region);
-        points.push_back(
-            {{"region", at.piece}, {"uv_mm", pair(at.uv)}, {"distance_mm", at.distance}});
+        mapped.points.push_back({at.piece, at.uv, at.distance});
     }
     std::size_t left = most_steps;
-    for (const auto& polyline : drawing.polylines) {
+    for (const Points3& polyline : drawing.polylines) {
         // A line over a cut goes on in another piece.
-        Json runs = Json::array();
-        walk(points_of<Vec3>(polyline), left, [&](const Vec3& point) {
+        auto& runs = mapped.polylines.emplace_back();
+        walk(polyline, left, [&](const Vec3& point) {
             const auto at = map.to_pattern(point, region);
-            if (runs.empty() || runs.back()["region"] != at.piece)
-                runs.push_back(
-                    {{"region", at.piece}, {"uv_mm", Json::array()}, {"distance_mm", 0.0}});
-            Json& run = runs.back();
-            run["uv_mm"].push_back(pair(at.uv));
-            run["distance_mm"] = std::max(run["distance_mm"].get<double>(), at.distance);
+            if (runs.empty() || runs.back().region != at.piece) runs.push_back({at.piece, {}, 0.0});
+            runs.back().uv_mm.push_back(at.uv);
+            runs.back().distance_mm = std::max(runs.back().distance_mm, at.distance);
         });
-        lines.push_back(std::move(runs));
     }
-    return {{"points", std::move(points)}, {"polylines", std::move(lines)}};
+    return mapped;
 }
 
-Json to_last(const PatternMap& map, const api::Drawing<2>& drawing) {
-    Json points = Json::array(), lines = Json::array();
-    for (const Vec2& point : points_of<Vec2>(drawing.points)) {
+api::Mapped::ToLast to_last(const PatternMap& map, const api::Drawing<Vec2>& drawing) {
+    api::Mapped::ToLast mapped;
+    for (const Vec2& point : drawing.points) {
         const auto at = map.to_last(drawing.region, point);
-        points.push_back({{"position", triple(at.position)}, {"distance_mm", at.distance}});
+        mapped.points.push_back({at.position, at.distance});
     }
     std::size_t left = most_steps;
-    for (const auto& polyline : drawing.polylines) {
-        Json positions = Json::array();
-        double furthest = 0.0;
-        walk(points_of<Vec2>(polyline), left, [&](const Vec2& point) {
+    for (const Points2& polyline : drawing.polylines) {
+        api::LineOnLast& line = mapped.polylines.emplace_back();
+        walk(polyline, left, [&](const Vec2& point) {
             const auto at = map.to_last(drawing.region, point);
-            positions.push_back(triple(at.position));
-            furthest = std::max(furthest, at.distance);
+            line.positions.push_back(at.position);
+            line.distance_mm = std::max(line.distance_mm, at.distance);
         });
-        lines.push_back({{"positions", std::move(positions)}, {"distance_mm", furthest}});
     }
-    return {{"points", std::move(points)}, {"polylines", std::move(lines)}};
+    return mapped;
 }
 
-Json mapped(const std::string& flat_obj, const std::string& text) {
-    const api::MapRequest request = api::map_request_from_json(text);
-    const PatternMap map(read_flat_obj(flat_obj));
-    Json report = Json::object();
+/// An error names the drawing whose region it is about.
+template <class Map>
+auto named(const char* drawing, const Map& map) {
     try {
-        if (request.to_pattern) report["to_pattern"] = to_pattern(map, *request.to_pattern);
+        return map();
     } catch (Error& error) {
-        throw error.at_option({"to_pattern", "region"});
+        throw error.at_option({drawing, "region"});
     }
-    try {
-        if (request.to_last) report["to_last"] = to_last(map, *request.to_last);
-    } catch (Error& error) {
-        throw error.at_option({"to_last", "region"});
-    }
-    return report;
 }
 
 }  // namespace
 
-Json map_job(const std::string& flat_obj, const std::string& request) {
-    try {
-        return {{"report", mapped(flat_obj, request)}};
-    } catch (const api::InvalidRequest& error) {
-        return {{"problem", api::problem_json(problem_of(error))}};
-    } catch (const Error& error) {
-        return {{"problem", api::problem_json(problem_of(error))}};
-    } catch (const std::bad_alloc&) {
-        return {{"problem", api::problem_json(out_of_memory())}};
-    }
+api::Mapped map_job(const std::string& flat_obj, const api::MapRequest& request) {
+    const PatternMap map(read_flat_obj(flat_obj));
+    api::Mapped mapped;
+    if (request.to_pattern)
+        mapped.to_pattern =
+            named("to_pattern", [&] { return to_pattern(map, *request.to_pattern); });
+    if (request.to_last)
+        mapped.to_last = named("to_last", [&] { return to_last(map, *request.to_last); });
+    return mapped;
 }
 
 }  // namespace lastflat::server

@@ -7,24 +7,21 @@
 #include <unistd.h>
 
 #include <iostream>
-#include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "api/flatten_request.h"
-#include "api/problem_json.h"
-#include "server/jobs/result_parts.h"
+#include "api/model_report.h"
+#include "api/problem_of.h"
+#include "api/refusal.h"
+#include "core/inspect.h"
 #include "server/protocol/result_pack.h"
 #include "server/protocol/work_messages.h"
 #include "server/support/crypto.h"
 #include "server/support/files.h"
-#include "server/worker/inspect_job.h"
 #include "server/worker/map_job.h"
-#include "server/worker/problem_map.h"
+#include "server/worker/run_job.h"
 
 namespace lastflat::server {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Below the service: its answers come before our triangles.
 constexpr int niceness = 10;
@@ -54,56 +51,52 @@ void limit_self(const WorkOrder& order) {
     [[maybe_unused]] const int now = nice(niceness);
 }
 
-void say(const Json& message) {
-    const std::string line = message.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-    std::cout << line << std::flush;
+void say(const WorkMessage& message) {
+    std::cout << to_line(message) << std::flush;
 }
 
-void say_problem(const api::Problem& problem) {
-    say({{"problem", api::problem_json(problem)}});
-}
-
-std::string read_model(const WorkOrder& order) {
+std::string read_model(const WorkOrder& order) try {
     const File file(order.model, O_RDONLY);
     std::string model = file.read(0, file.size());
     if (sha256(model) != order.digest) throw StoreError("its bytes have changed on the disk");
     return model;
+} catch (const StoreError& error) {
+    api::refuse("model_lost", std::string("the model cannot be read back: ") + error.what() +
+                                  "; post the job again");
 }
 
-void flatten(const WorkOrder& order, const JobInput& input) {
+WorkMessage flatten(const WorkOrder& order, const JobInput& input) {
     Progress progress([](Stage stage, double fraction) {
-        say({{"stage", name(stage)}, {"fraction", fraction}});
+        say(StageReached{std::string(name(stage)), fraction});
     });
-    const RunOutcome outcome = run_job(input, Compression::gzip, progress);
-    if (!outcome.output) return say_problem(outcome.error.value());
+    const JobOutput output = run_job(input, Compression::gzip, progress);
     try {
-        const ResultPack pack = write_result_pack(*outcome.output, order.result);
-        say({{"digest", pack.digest}, {"parts", Json::parse(to_json(pack.parts))}});
+        return write_result_pack(output, order.result);
     } catch (const StoreError& error) {
         ::unlink(order.result.c_str());
-        say({{"retry", error.what()}});
+        return Retry{error.what()};
     }
 }
 
-void work(const WorkOrder& order) {
-    JobInput input;
-    try {
-        if (order.task == Task::map) return say(map_job(read_model(order), order.request));
-        input.options.request = api::flatten_request_from_json(order.request).asked;
-        input.options.threads = static_cast<std::size_t>(order.threads);
-        input.model = read_model(order);
-    } catch (const api::InvalidRequest& error) {
-        return say_problem(problem_of(error));
-    } catch (const Error& error) {
-        return say_problem(problem_of(error));
-    } catch (const StoreError& error) {
-        return say_problem(
-            {500, "model_lost", "",
-             std::string("the model cannot be read back: ") + error.what() + "; post the job again",
-             std::nullopt, std::nullopt});
+WorkMessage work(const WorkOrder& order) {
+    if (order.task == Task::map) {
+        const auto request = api::map_request_from_json(order.request);
+        return Report{api::to_json(map_job(read_model(order), request))};
     }
-    if (order.task == Task::inspect) return say(inspect_job(input));
-    flatten(order, input);
+    JobInput input;
+    input.options.request = api::flatten_request_from_json(order.request).asked;
+    input.options.threads = static_cast<std::size_t>(order.threads);
+    input.model = read_model(order);
+    if (order.task == Task::flatten) return flatten(order, input);
+    return Report{api::to_json(inspect(input.model, input.options))};
+}
+
+WorkMessage ended(const WorkOrder& order) {
+    try {
+        return work(order);
+    } catch (...) {
+        return Failed{api::problem_of(std::current_exception())};
+    }
 }
 
 }  // namespace
@@ -113,7 +106,7 @@ void work_command() {
     std::getline(std::cin, line);
     const WorkOrder order = work_order_of(line);
     limit_self(order);
-    work(order);
+    say(ended(order));
     // All is said and on the disk; giving the memory back piece by piece would only take time.
     std::_Exit(0);
 }

@@ -10,14 +10,14 @@ set(core_order numerics/types error progress parallel overloaded stopwatch reque
 # The rooms of the server, in their order, each with what it knows beside itself.
 set(server_rooms
     "support: api"
-    "http: support"
+    "http: support api"
     "jobs: support api"
     "storage: support jobs api"
     "protocol: support jobs"
     "worker: support jobs protocol api core"
     "runner: support jobs protocol api"
     "webhooks: support jobs api"
-    "routes: support http jobs protocol worker runner webhooks api core"
+    "routes: support http jobs protocol runner webhooks api"
     "cli: support http jobs storage protocol worker runner webhooks routes api core")
 
 # Headers of libraries, and the only folder or file that includes them.

@@ -52,8 +52,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (length && is_token(bytes.substr(0, 1))) fuzz::require(length == length_byte_by_byte(bytes));
     try {
         check(vet_head(bytes.substr(0, length.value_or(size)), routes(), ServerLimits()));
-    } catch (const Refusal& refusal) {
-        fuzz::require(refusal.status() == 204 || refusal.status() >= 400);
+    } catch (const RefusedHead& refusal) {
+        fuzz::require(refusal.problem().status >= 400);
     }
     return 0;
 }

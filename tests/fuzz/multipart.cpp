@@ -21,8 +21,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             bytes += part.bytes.size();
         }
         fuzz::require(bytes <= body.size());
-    } catch (const http::Refusal& refusal) {
-        fuzz::require(refusal.status() >= 400);
+    } catch (const api::Refusal& refusal) {
+        fuzz::require(refusal.problem().status >= 400);
     }
     return 0;
 }

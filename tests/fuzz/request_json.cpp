@@ -1,9 +1,9 @@
 // Any bytes as a constraint JSON, alone and beside a model, and as what is to be mapped. An error
 // must name a JSON pointer, and a problem document must be able to carry its text.
 #include "api/flatten_request.h"
-#include "api/map_request.h"
+#include "api/map.h"
 #include "api/object_reader.h"
-#include "api/problem.h"
+#include "api/submission.h"
 #include "tests/fuzz/mesh_checks.h"
 
 namespace {
@@ -25,9 +25,7 @@ void read_or_refuse(const Read& read) {
         (void)read();
     } catch (const api::InvalidRequest& error) {
         fuzz::require(error.pointer().empty() || error.pointer().front() == '/');
-        const std::string problem =
-            api::to_json({422, "invalid_request", "", error.what(), error.pointer(), std::nullopt});
-        fuzz::require(nlohmann::json::accept(problem));
+        fuzz::require(nlohmann::json::accept(api::to_json(error.problem())));
     }
 }
 

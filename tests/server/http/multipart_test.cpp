@@ -24,9 +24,9 @@ std::string named(const std::string& name) {
 std::string verdict(const std::string& type, const std::string& body) {
     try {
         return std::to_string(parse_multipart(type, body, 3).size()) + " parts";
-    } catch (const Refusal& refusal) {
-        CHECK(refusal.status() == 400);
-        return refusal.code();
+    } catch (const api::Refusal& refusal) {
+        CHECK(refusal.problem().status == 400);
+        return std::string(refusal.problem().code.word());
     }
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "api/problem_of.h"
 #include "server/http/http.h"
 #include "tests/server/http/raw_client.h"
 
@@ -21,9 +22,11 @@ inline Response text_response(std::string text) {
     return response;
 }
 
-inline Response test_problem(int status, std::string_view code, std::string_view) {
-    Response response = text_response(std::string(code));
-    response.status = status;
+inline Response test_problem(const Request&, const std::exception_ptr& thrown) {
+    const api::Refusal refusal = api::refusal_of(thrown);
+    Response response = text_response(std::string(refusal.problem().code.word()));
+    response.status = refusal.problem().status;
+    response.headers = refusal.headers();
     response.media_type = "application/problem+json";
     return response;
 }
@@ -101,15 +104,16 @@ public:
 private:
     ServerHooks hooks() {
         ServerHooks hooks;
-        hooks.problem = test_problem;
-        hooks.failed = [this](const Request&, std::string_view what) {
+        hooks.problem = [this](const Request& request, const std::exception_ptr& thrown) {
+            Response response = test_problem(request, thrown);
             const std::lock_guard lock(mutex_);
-            failures_ += std::string(what) + ";";
+            if (response.status == 500)
+                failures_ += api::refusal_of(thrown).what() + std::string(";");
+            return response;
         };
-        hooks.admit = [](Request& request) -> std::optional<Response> {
+        hooks.admit = [](Request& request) {
             request.answer_headers.emplace_back("X-Admitted", "yes");
-            if (request.header("authorization") != "no") return std::nullopt;
-            return test_problem(401, "key_missing", "");
+            if (request.header("authorization") == "no") api::refuse("key_missing", "no key");
         };
         hooks.origin_headers = [](std::string_view origin) {
             return std::vector<std::pair<std::string, std::string>>{

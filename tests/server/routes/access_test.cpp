@@ -2,10 +2,13 @@
 
 #include <doctest/doctest.h>
 
-#include "api/job.h"
+#include "api/object_reader.h"
+#include "api/timestamp.h"
+#include "core/error.h"
 #include "server/routes/answers.h"
 #include "server/storage/sqlite_accounts.h"
 #include "server/support/duration.h"
+#include "server/support/files.h"
 #include "server/support/metrics.h"
 #include "tests/helpers/temporary_folder.h"
 
@@ -30,8 +33,12 @@ struct AccessSetting {
         return request;
     }
     int status(http::Request request) {
-        const auto refused = access.admit(request);
-        return refused ? refused->status : 200;
+        try {
+            access.admit(request);
+            return 200;
+        } catch (const api::Refusal& refusal) {
+            return refusal.problem().status;
+        }
     }
 };
 
@@ -72,15 +79,13 @@ TEST_SUITE("server/routes/access") {
         AccessSetting s({3, {}});
         const std::string one = s.keys.add("one"), two = s.keys.add("two");
         http::Request first = s.request(one);
-        CHECK_FALSE(s.access.admit(first).has_value());
+        s.access.admit(first);
         CHECK(header(first, "RateLimit-Policy") == "\"default\";q=3;w=60");
         CHECK(header(first, "RateLimit").rfind("\"default\";r=2;t=", 0) == 0);
         CHECK(s.status(s.request(one)) == 200);
         CHECK(s.status(s.request(one)) == 200);
         http::Request over = s.request(one);
-        const auto refused = s.access.admit(over);
-        REQUIRE(refused.has_value());
-        CHECK(refused->status == 429);
+        CHECK(s.status(over) == 429);
         CHECK(s.status(s.request(two)) == 200);
     }
 
@@ -89,7 +94,7 @@ TEST_SUITE("server/routes/access") {
         const auto allowed = [&](const char* origin) {
             http::Request request = s.request("");
             request.headers["origin"] = origin;
-            (void)s.access.admit(request);
+            s.access.admit(request);
             return header(request, "Access-Control-Allow-Origin");
         };
         CHECK(allowed("https://studio.example") == "https://studio.example");
@@ -99,6 +104,33 @@ TEST_SUITE("server/routes/access") {
 }
 
 TEST_SUITE("server/routes/answers") {
+    TEST_CASE("what is thrown becomes its problem, with the headers that go with it") {
+        const auto answer = [](const auto& thrown) {
+            http::Response response = answer_to({}, std::make_exception_ptr(thrown));
+            std::string text = std::to_string(response.status);
+            for (const auto& [name, value] : response.headers) {
+                if (name != "Cache-Control") text += " " + name + ": " + value;
+            }
+            return text;
+        };
+        CHECK(answer(api::Refusal("key_missing", "none")) == "401 WWW-Authenticate: Bearer");
+        CHECK(answer(api::Refusal("not_finished", "wait")) == "409 Retry-After: 1");
+        CHECK(answer(StoreError("disk")) == "503 Retry-After: 5");
+        CHECK(answer(api::Refusal("server_busy", "wait").with_header("Retry-After", "9")) ==
+              "503 Retry-After: 9");
+        CHECK(answer(api::InvalidRequest("/lock", "unknown")) == "422");
+        CHECK(answer(Error(ErrorCode::model_too_large, "large")) == "413");
+    }
+
+    TEST_CASE("a client is not told why the service failed") {
+        for (const auto& thrown : {std::make_exception_ptr(std::logic_error("the secret")),
+                                   std::make_exception_ptr(StoreError("the secret"))}) {
+            const http::Response response = answer_to({}, thrown);
+            CHECK(response.status >= 500);
+            CHECK(response.body->find("the secret") == std::string::npos);
+        }
+    }
+
     TEST_CASE("tags are compared weakly, and a list of them too") {
         http::Request request;
         CHECK_FALSE(has_already(request, "\"a\""));

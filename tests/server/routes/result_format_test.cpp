@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "server/routes/answers.h"
+#include "api/refusal.h"
 
 namespace lastflat::server {
 namespace {
@@ -35,7 +35,7 @@ TEST_SUITE("server/routes/result_format") {
             try {
                 (void)format_for(accept, query);
                 FAIL("no error");
-            } catch (const Refusal& refusal) {
+            } catch (const api::Refusal& refusal) {
                 CHECK(refusal.problem().status == status);
                 CHECK(std::string(refusal.what()).find("image/svg+xml") != std::string::npos);
             }
@@ -72,7 +72,7 @@ TEST_SUITE("server/routes/result_format") {
                                  "bytes=99999999999999999999999-"})
             CHECK(range(text) == "all");
         for (const char* text : {"bytes=100-", "bytes=100-200", "bytes=-0"})
-            CHECK_THROWS_AS((void)range(text), Refusal);
+            CHECK_THROWS_AS((void)range(text), api::Refusal);
     }
 }
 

@@ -24,8 +24,8 @@ Submission submitted(std::vector<http::BodyPart> parts) {
 std::string code_of(std::vector<http::BodyPart> parts) {
     try {
         (void)submitted(std::move(parts));
-    } catch (const Refusal& refusal) {
-        return refusal.problem().code;
+    } catch (const api::Refusal& refusal) {
+        return std::string(refusal.problem().code.word());
     }
     return "taken";
 }

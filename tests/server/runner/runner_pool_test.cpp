@@ -49,21 +49,16 @@ struct PoolSetting : test::TestStore {
 
 ProcessEnd finished(const std::filesystem::path& file) {
     write_durably(file, "a result");
-    ProcessEnd end;
-    end.kind = ProcessEnd::Kind::finished;
-    end.outcome.result = sha256("a result");
-    return end;
+    return Succeeded{sha256("a result"), {}};
 }
 
-ProcessEnd ended_as(ProcessEnd::Kind kind) {
-    ProcessEnd end;
-    end.kind = kind;
-    return end;
+ProcessEnd ended_as(Unfinished::Kind kind) {
+    return Unfinished{kind, {}};
 }
 
 ProcessEnd until_stopped(const ProcessControl& control) {
     while (!control.must_stop()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return ended_as(ProcessEnd::Kind::stopped);
+    return ended_as(Unfinished::Kind::stopped);
 }
 
 }  // namespace
@@ -118,7 +113,7 @@ TEST_SUITE("server/runner/runner_pool") {
     }
 
     TEST_CASE("what a process does decides what becomes of its job") {
-        using Kind = ProcessEnd::Kind;
+        using Kind = Unfinished::Kind;
         for (const auto& [kind, code, runs] : {std::tuple(Kind::crashed, "worker_crashed", 1),
                                                std::tuple(Kind::lost, "worker_lost", 3),
                                                std::tuple(Kind::timed_out, "job_too_slow", 1)}) {
@@ -133,7 +128,7 @@ TEST_SUITE("server/runner/runner_pool") {
             pool.wake();
             const JobRecord job = s.ended("A");
             CHECK(job.state == JobState::failed);
-            CHECK(job.error.find(code) != std::string::npos);
+            CHECK(job.error.value().code.word() == code);
             CHECK(job.attempt == runs);
         }
     }
@@ -164,7 +159,7 @@ TEST_SUITE("server/runner/runner_pool") {
             s.store, s.blobs, s.watch, s.options(1, 60),
             [&](const Claim&, const std::filesystem::path& file, const ProcessControl& control) {
                 while (go_on) {
-                    if (control.must_stop()) return ended_as(ProcessEnd::Kind::stopped);
+                    if (control.must_stop()) return ended_as(Unfinished::Kind::stopped);
                     std::this_thread::sleep_for(std::chrono::milliseconds(2));
                 }
                 return finished(file);
@@ -174,8 +169,8 @@ TEST_SUITE("server/runner/runner_pool") {
         pool.wake();
         while (s.state("A") != JobState::running) std::this_thread::yield();
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
-        CHECK(s.store.sweep(false, "{}").changed.empty());
-        CHECK(s.store.sweep(true, "{}").changed.size() == 1);  // as if it had been silent
+        CHECK(s.store.sweep(false, test::lost).changed.empty());
+        CHECK(s.store.sweep(true, test::lost).changed.size() == 1);  // as if it had been silent
         while (s.outcome(0).empty()) std::this_thread::yield();
         CHECK(s.outcome(0) == "lost");
         go_on = false;

@@ -59,6 +59,10 @@ std::string gunzip(const std::string& packed) {
     return bytes;
 }
 
+std::string code_of(const ProcessEnd& end) {
+    return std::string(std::get<Failed>(end).problem.code.word());
+}
+
 /// A program that is no worker.
 std::string script(const WorkSetting& s, const std::string& body) {
     const auto path = s.folder.path() / "script";
@@ -74,15 +78,15 @@ TEST_SUITE("server/runner/worker_process") {
         WorkSetting s;
         REQUIRE(std::filesystem::exists(s.limits.program));
         const ProcessEnd end = s.run(s.order(square));
-        REQUIRE(end.kind == ProcessEnd::Kind::finished);
-        CHECK(end.outcome.error == "");
-        REQUIRE(end.outcome.parts.size() == 10);
+        REQUIRE(std::holds_alternative<Succeeded>(end));
+        const auto& [result, parts] = std::get<Succeeded>(end);
+        REQUIRE(parts.size() == 10);
         CHECK(s.stages.front() == "load");
         CHECK(s.stages.back() == "done");
         const File file(s.folder.path() / "result", 0);
-        CHECK(sha256(file.read(0, file.size())) == end.outcome.result);
+        CHECK(sha256(file.read(0, file.size())) == result);
         for (std::size_t i = 0; i < 10; i += 2) {
-            const ResultPart &plain = end.outcome.parts[i], &packed = end.outcome.parts[i + 1];
+            const ResultPart &plain = parts[i], &packed = parts[i + 1];
             const std::string bytes = file.read(plain.offset, plain.size);
             CHECK(sha256(bytes) == plain.digest);
             CHECK(packed.gzip);
@@ -92,26 +96,21 @@ TEST_SUITE("server/runner/worker_process") {
 
     TEST_CASE("what is wrong with a job comes back as its problem") {
         WorkSetting s;
-        const auto error = [&](const WorkOrder& order) {
-            const ProcessEnd end = s.run(order);
-            CHECK(end.kind == ProcessEnd::Kind::finished);
-            return end.outcome.error;
-        };
-        CHECK(error(s.order("hello")).find("unreadable_model") != std::string::npos);
-        CHECK(error(s.order(square, "{\"cut\": []}")).find("invalid_request") != std::string::npos);
+        CHECK(code_of(s.run(s.order("hello"))) == "unreadable_model");
+        CHECK(code_of(s.run(s.order(square, "{\"cut\": []}"))) == "invalid_request");
         WorkOrder changed = s.order(square);
         write_durably(changed.model, "other bytes");
-        CHECK(error(changed).find("model_lost") != std::string::npos);
+        CHECK(code_of(s.run(changed)) == "model_lost");
     }
 
     TEST_CASE("an inspection comes back with a report") {
         WorkSetting s;
         WorkOrder order = s.order(square);
         order.task = Task::inspect;
-        CHECK(s.run(order).report.find("\"flattens\":true") != std::string::npos);
+        CHECK(std::get<Report>(s.run(order)).json.find("\"flattens\":true") != std::string::npos);
         order = s.order("hello");
         order.task = Task::inspect;
-        CHECK(s.run(order).outcome.error.find("unreadable_model") != std::string::npos);
+        CHECK(code_of(s.run(order)) == "unreadable_model");
     }
 
     TEST_CASE("a process that crashes, talks nonsense, hangs or is killed takes nothing with it") {
@@ -119,18 +118,19 @@ TEST_SUITE("server/runner/worker_process") {
         s.limits.time = std::chrono::milliseconds(300);
         const auto kind = [&](const std::string& body) {
             s.limits.program = script(s, body);
-            return s.run(s.order(square)).kind;
+            return std::get<Unfinished>(s.run(s.order(square))).kind;
         };
-        using Kind = ProcessEnd::Kind;
+        using Kind = Unfinished::Kind;
         CHECK(kind("kill -SEGV $$") == Kind::crashed);
         CHECK(kind("kill -KILL $$") == Kind::lost);
         CHECK(kind("kill -XCPU $$") == Kind::timed_out);
         CHECK(kind("exit 0") == Kind::crashed);
         CHECK(kind("echo nonsense; sleep 10") == Kind::crashed);
-        CHECK(kind("echo '{\"stage\": 7}'") == Kind::crashed);
+        CHECK(kind("echo 'progress {\"stage\": 7}'") == Kind::crashed);
         CHECK(kind("exec sleep 10") == Kind::timed_out);
-        CHECK(kind("echo '{\"retry\": \"the disk is full\"}'") == Kind::retry);
-        CHECK(s.run(s.order(square), [] { return true; }).kind == Kind::stopped);
+        CHECK(kind("echo 'retry the disk is full'") == Kind::retry);
+        CHECK(std::get<Unfinished>(s.run(s.order(square), [] { return true; })).kind ==
+              Kind::stopped);
         s.limits.program = "/nowhere";
         CHECK_THROWS((void)s.run(s.order(square)));
     }
@@ -142,8 +142,7 @@ TEST_SUITE("server/runner/worker_process") {
         std::string model;
         for (int i = 0; i < 1'500'000; ++i) model += "v " + std::to_string(i) + " 0 0\n";
         const ProcessEnd end = s.run(s.order(model + "f 1 2 3\n"));
-        CHECK(end.kind == ProcessEnd::Kind::finished);
-        CHECK(end.outcome.error.find("out_of_memory") != std::string::npos);
+        CHECK(code_of(end) == "out_of_memory");
     }
 #endif
 }

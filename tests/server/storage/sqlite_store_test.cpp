@@ -76,7 +76,7 @@ TEST_SUITE("server/storage/sqlite_store") {
         TestStore s;
         REQUIRE(s.add(new_job("A")) == Admission::queued);
         const auto first = s.store.claim(0).value();  // over at once
-        CHECK(s.store.sweep(false, "{}").changed == std::vector<std::string>{"A"});
+        CHECK(s.store.sweep(false, test::lost).changed == std::vector<std::string>{"A"});
         CHECK(s.state("A") == JobState::queued);
         CHECK(s.store.renew(first.lease, long_lease) == Hold::lost);
         const auto second = s.store.claim(long_lease).value();
@@ -95,11 +95,11 @@ TEST_SUITE("server/storage/sqlite_store") {
         for (int attempt = 1; attempt <= most_attempts; ++attempt) {
             CHECK(s.state("A") == JobState::queued);
             CHECK(s.store.claim(long_lease)->attempt == attempt);
-            (void)s.store.sweep(true, "{\"code\":\"worker_lost\"}");
+            (void)s.store.sweep(true, test::lost);
         }
         const JobRecord job = s.store.find("", "A").value();
         CHECK(job.state == JobState::failed);
-        CHECK(job.error == "{\"code\":\"worker_lost\"}");
+        CHECK(to_json(job.error.value()) == to_json(test::lost));
         CHECK_FALSE(s.store.claim(long_lease).has_value());
     }
 
@@ -146,7 +146,7 @@ TEST_SUITE("server/storage/sqlite_store") {
         later.cancel_at_ms = now_ms() + 60'000;
         for (const NewJob& job : {runs, waits, later}) REQUIRE(s.add(job) == Admission::queued);
         const auto claim = s.store.claim(long_lease).value();
-        CHECK(s.store.sweep(false, "{}").changed.size() == 2);
+        CHECK(s.store.sweep(false, test::lost).changed.size() == 2);
         CHECK(s.state("A") == JobState::canceling);
         CHECK(s.state("B") == JobState::canceled);
         CHECK(s.state("C") == JobState::queued);
@@ -230,12 +230,12 @@ TEST_SUITE("server/storage/sqlite_store") {
         REQUIRE(s.add(new_job("A")) == Admission::queued);
         CHECK(s.store.finish(s.store.claim(long_lease)->lease, success("blob")));
         CHECK(s.store.needs_blob("blob"));
-        CHECK(s.store.sweep(false, "{}").blobs == std::vector<std::string>{"blob"});
+        CHECK(s.store.sweep(false, test::lost).blobs == std::vector<std::string>{"blob"});
         CHECK_FALSE(s.store.needs_blob("blob"));
         CHECK(s.state("A") == JobState::succeeded);
 
         SqliteStore strict(s.database, Retention{-1, -1});
-        (void)strict.sweep(false, "{}");
+        (void)strict.sweep(false, test::lost);
         CHECK_FALSE(strict.find("", "A").has_value());
         CHECK(strict.is_expired("", "A"));
         CHECK_FALSE(strict.is_expired("somebody", "A"));

@@ -17,18 +17,15 @@ inline NewJob new_job(const std::string& id, const std::string& owner = "") {
     return job;
 }
 
-inline JobOutcome success(const std::string& result = "result") {
-    JobOutcome outcome;
-    outcome.result = result;
-    outcome.parts = {{"json", false, 0, 4, "digest"}};
-    return outcome;
+inline Succeeded success(const std::string& result = "result") {
+    return {result, {{"json", false, 0, 4, "digest"}}};
 }
 
-inline JobOutcome failure() {
-    JobOutcome outcome;
-    outcome.error = "{\"code\":\"broken\",\"detail\":\"it broke\"}";
-    return outcome;
+inline Failed failure() {
+    return {{"solver_failed", "it broke"}};
 }
+
+inline const api::Problem lost("worker_lost", "its worker was lost");
 
 struct TestStore {
     lastflat::test::TemporaryFolder folder;

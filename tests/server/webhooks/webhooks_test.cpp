@@ -28,7 +28,7 @@ bool private_address(const char* text) {
 }
 
 Webhook webhook(const std::string& id, const std::string& owner, const std::string& events) {
-    return {id, owner, "http://127.0.0.1:9/", "whsec_AAAA", events, 0};
+    return {{id, "http://127.0.0.1:9/", "whsec_AAAA", api::named_events(events), 0}, owner};
 }
 
 }  // namespace

@@ -1,0 +1,20 @@
+// Why something failed, in the words of the wire: the only way from an exception to a problem.
+#pragma once
+
+#include <exception>
+
+#include "api/refusal.h"
+#include "core/error.h"
+
+namespace lastflat::api {
+
+/// What was thrown, with its problem: a `Refusal` as it is; of an `Error` of core its code; of
+/// std::bad_alloc `out_of_memory`; of anything else `internal_error`. Its `what()` is for the
+/// operator.
+[[nodiscard]] Refusal refusal_of(const std::exception_ptr& thrown);
+[[nodiscard]] inline Problem problem_of(const std::exception_ptr& thrown) {
+    return refusal_of(thrown).problem();
+}
+[[nodiscard]] Problem problem_of(const Error& error);
+
+}  // namespace lastflat::api
