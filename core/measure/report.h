@@ -12,7 +12,7 @@ namespace lastflat {
 
 enum class Verdict { pass, warn, fail };
 
-/// Distortion of one region; 1 or 0 is an isometry. See core/README.md for the formulas.
+/// Distortion of one region; 1 or 0 is an isometry. See core/METHODS.md for the formulas.
 struct Metrics {
     double stretch_l2, stretch_linf;                        ///< Sander et al., plane to surface
     double stretch_l2_normalised, stretch_linf_normalised;  ///< up to scale

@@ -151,9 +151,9 @@ std::string speed(int runs) {
 
 std::string scaling(int largest) {
     std::string text =
-        "| triangles | mean_value, ms | per triangle, us | peak, MiB | geodesic run, ms | per "
-        "triangle, us | peak, MiB | isometric, ms | per triangle, us | Newton steps | peak, MiB "
-        "|\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+        "| triangles | map ms | us each | MiB | geodesics ms | us each | MiB | isometric ms | us "
+        "each | steps | MiB |\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
     const std::vector<Constraint> locks{lock("left"), lock("right")};
     for (const int triangles : {1'000, 3'000, 10'000, 30'000, 100'000, 300'000, 1'000'000}) {
         if (triangles > largest) break;

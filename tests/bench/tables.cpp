@@ -50,7 +50,7 @@ std::vector<Row> rows(const Subject& subject, peers::CgalMesh& cgal) {
     std::vector<Row> all{
         ours(subject, "tutte, circle", {tutte, circle}),
         ours(subject, "chord_length, circle", {chord_length, circle}),
-        ours(subject, "shape_preserving, square (Floater)", {shape_preserving, square}),
+        ours(subject, "shape_preserving (Floater)", {shape_preserving, square}),
         ours(subject, "shape_preserving, circle", {shape_preserving, circle}),
         ours(subject, "harmonic, circle", {harmonic, circle}),
         ours(subject, "wachspress, circle", {wachspress, circle}),
@@ -58,8 +58,7 @@ std::vector<Row> rows(const Subject& subject, peers::CgalMesh& cgal) {
         ours(subject, "mean_value, circle", {mean_value, circle}),
         ours(subject, "mean_value, hull", {mean_value, hull}),
         ours(subject, "virtual_border (Lee)", {virtual_border}),
-        ours(subject, "geodesic_fan, averaged_conformal (Kim)",
-             {geodesic_fan, circle, AngleRule::averaged_conformal}),
+        ours(subject, "geodesic_fan (Kim)", {geodesic_fan, circle, AngleRule::averaged_conformal}),
         ours(subject, "geodesic_fan", {geodesic_fan}),
         energy(subject, "mips", mips_energy, {}),
         energy(subject, "green_lagrange (Maillot)", strain_energy, {}),
@@ -124,8 +123,8 @@ std::string tables(const std::vector<Subject>& subjects, int runs) {
                 " vertices, " + std::to_string(subject.region.border.size()) + " on the border, " +
                 std::to_string(subject.region.triangles.size()) +
                 " triangles\n\n"
-                "| method | L2 | Linf | L2 normalised | Linf normalised | symmetric Dirichlet | "
-                "angle | area error | worst locked curve, mm | flips | ms |\n"
+                "| method | L2 | Linf | L2 norm. | Linf norm. | Dirichlet | "
+                "angle | area error | locked, mm | flips | ms |\n"
                 "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
         peers::CgalMesh cgal(subject.region);
         for (const Row& row : rows(subject, cgal)) text += line(subject, row, runs);
