@@ -6,12 +6,13 @@ RUN tests/install.sh build
 COPY . .
 RUN cmake --preset release -DBUILD_TESTING=OFF
 RUN cmake --build --preset release --target lastflat
+RUN DESTDIR=/installed cmake --install build/release
 
 FROM debian:12-slim
 COPY --from=build /src/tests/install.sh /tmp/install.sh
 RUN /tmp/install.sh run && rm -rf /tmp/install.sh /var/lib/apt/lists/*
 RUN useradd --system --uid 10001 --home-dir /data lastflat && install -d -o lastflat /data
-COPY --from=build /src/build/release/lastflat /src/build/release/lastflat-work /usr/local/bin/
+COPY --from=build /installed/ /
 USER lastflat
 VOLUME /data
 EXPOSE 8080

@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include "server/support/descriptor.h"
+#include "server/support/version.h"
 
 namespace lastflat::server {
 namespace {
@@ -187,7 +188,9 @@ private:
 }  // namespace
 
 std::string worker_program() {
-    return std::filesystem::read_symlink("/proc/self/exe").replace_filename("lastflat-work");
+    const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    const auto built = folder / "lastflat-work";
+    return std::filesystem::exists(built) ? built : folder / installed_worker;
 }
 
 ProcessEnd run_worker_process(WorkOrder order, const ProcessLimits& limits,

@@ -10,7 +10,8 @@
 
 namespace lastflat::server {
 
-/// The program of the workers: `lastflat-work`, beside the running program.
+/// The program of the workers, `lastflat-work`: beside the running program, as it is built, or
+/// where it is installed.
 [[nodiscard]] std::string worker_program();
 
 struct ProcessLimits {
