@@ -30,6 +30,9 @@ git ls-files -z '*.h' '*.cpp' 2>/dev/null | xargs -0 clang-format-14 --dry-run -
 step "release: build"
 build release all
 
+step "headers"
+build release check_headers
+
 step "address and undefined behaviour sanitizers"
 build asan core_tests api_tests server_tests lastflat
 ctest --preset asan -R '^(core_tests|api_tests|server_tests|hostile)$' --quiet --output-log build/asan/ctest.log ||
