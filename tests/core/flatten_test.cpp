@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <set>
+
 #include "core/border/convex_border.h"
 #include "core/constrain/constrained_newton.h"
 #include "core/parameterize/start.h"
@@ -226,8 +228,22 @@ TEST_SUITE("core/flatten") {
 
     TEST_CASE("progress goes forward and ends at one") {
         const SampleLast last = make_sample_last();
-        Progress progress;
+        std::vector<std::pair<Stage, double>> steps;
+        Progress progress(
+            [&](Stage stage, double fraction) { steps.emplace_back(stage, fraction); });
         (void)flatten(write_model_obj(last.mesh), test::sample_options(last), progress);
+        REQUIRE(steps.size() > 5);
+        CHECK(steps.front().second >= 0.0);
+        std::set<Stage> stages;
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            stages.insert(steps[i].first);
+            if (i == 0) continue;
+            CAPTURE(i);
+            CHECK(steps[i].first >= steps[i - 1].first);
+            CHECK(steps[i].second >= steps[i - 1].second);
+        }
+        CHECK(stages.size() == static_cast<std::size_t>(Stage::done) + 1);
+        CHECK(steps.back() == std::pair(Stage::done, 1.0));
         CHECK(progress.stage() == Stage::done);
         CHECK(progress.fraction() == 1.0);
     }

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "core/constrain/closure.h"
 #include "core/measure/report.h"
 #include "tests/helpers/minimum.h"
 #include "tests/helpers/shapes.h"
@@ -89,27 +88,6 @@ TEST_SUITE("core/constrain/resolve_conflicts") {
         CHECK(reports[2].kept);
     }
 
-    TEST_CASE("a straight side that gave way is not found again, nor in another region") {
-        Region a = test::dome(6, 0.6), b = a;
-        a.name = "a";
-        b.name = "b";
-        std::vector<Constraint> constraints{{Lock{"bottom", Keep::edges, "b"}}};
-        for (const char* side : {"right", "top", "left"})
-            constraints.push_back({Range{side, -95, -90, "b"}});
-        constraints.push_back({Straight{"bottom", "a"}});
-        const Domain domain({&a, &b});
-        CHECK_FALSE(
-            open_loop(domain, constraint_rows(domain, constraints), constraints).has_value());
-        constraints.back() = {Straight{"bottom", "b"}, -1};
-        const auto loop = open_loop(domain, constraint_rows(domain, constraints), constraints);
-        REQUIRE(loop.has_value());
-        auto rows = constraint_rows(domain, constraints);
-        rows.erase(std::remove_if(rows.begin(), rows.end(),
-                                  [](const ConstraintRow& row) { return row.constraint == 4; }),
-                   rows.end());
-        CHECK_FALSE(open_loop(domain, rows, constraints).has_value());
-    }
-
     TEST_CASE("constraints that can all hold are no conflict, however far the start is") {
         const Region region = test::dome(8, 1.2);
         std::vector<Constraint> constraints{lock("left"), lock("right"), lock("top"),
@@ -117,61 +95,6 @@ TEST_SUITE("core/constrain/resolve_conflicts") {
         const auto result = test::flattened({&region}, constraints);
         for (const auto& report : measure_constraints({region}, result.minimum.charts, constraints))
             CHECK(report.kept);
-    }
-
-    TEST_CASE("loops that cannot close are found before any solve") {
-        const Region region = test::dome(6, 0.6);
-        const Domain domain({&region});
-        const std::vector<Constraint> border{lock("bottom"), lock("right"), lock("top"),
-                                             lock("left")};
-        const auto found = [&](const std::vector<Constraint>& constraints) {
-            return open_loop(domain, constraint_rows(domain, constraints), constraints);
-        };
-        CHECK_FALSE(found(border).has_value());
-
-        auto too_large = border;
-        too_large.push_back({TotalArea{60.0, 60.0}});
-        REQUIRE(found(too_large).has_value());
-        CHECK(found(too_large)->constraints.size() == 5);
-        too_large.back() = {TotalArea{1.0, 1.0}};
-        CHECK_FALSE(found(too_large).has_value());
-
-        std::vector<Constraint> side{lock("bottom"), range("right", -95, -90),
-                                     range("top", -95, -90), range("left", -95, -90)};
-        CHECK_FALSE(found(side).has_value());
-        side.push_back({Straight{"bottom"}});
-        REQUIRE(found(side).has_value());
-        CHECK(found(side)->gap_mm > 10.0);
-    }
-
-    TEST_CASE("two vertices pinned to one place are found before any solve") {
-        const Region region = test::dome(6, 0.6);
-        const Domain domain({&region});
-        const std::vector<Constraint> constraints{{Pin{0, {5, 5}}}, {Pin{6, {5, 5}}}};
-        const auto loop = open_loop(domain, constraint_rows(domain, constraints), constraints);
-        REQUIRE(loop.has_value());
-        CHECK(loop->constraints.size() == 2);
-        CHECK(loop->gap_mm == doctest::Approx(region.distance(0, 6)));
-    }
-
-    TEST_CASE("a vertex whose neighbourhood is locked must close by itself") {
-        const Index centre = 24;  // of a grid of 6 x 6
-        const auto found = [&](Region region) {
-            std::vector<Constraint> constraints;
-            for (const Triangle& t : region.triangles) {
-                if (std::find(t.begin(), t.end(), centre) == t.end()) continue;
-                const std::string curve = "triangle " + std::to_string(constraints.size());
-                constraints.push_back(lock(curve));
-                region.runs.push_back({curve, {t[0], t[1], t[2], t[0]}});
-            }
-            const Domain domain({&region});
-            return open_loop(domain, constraint_rows(domain, constraints), constraints);
-        };
-        CHECK_FALSE(found(test::plane(6)).has_value());
-        const auto open = found(test::dome(6, 0.6));
-        REQUIRE(open.has_value());
-        CHECK(open->why.find("do not close") != std::string::npos);
-        CHECK((open->position - test::dome(6, 0.6).position(centre)).norm() < 1e-12);
     }
 }
 

@@ -26,6 +26,9 @@ public:
         }
     }
 
+    /// A client on a socket that is connected already.
+    explicit RawClient(Socket socket) : socket_(std::move(socket)) {}
+
     /// False once the server has closed.
     bool send(const std::string& bytes) {
         std::size_t sent = 0;

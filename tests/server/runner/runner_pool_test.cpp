@@ -10,12 +10,15 @@
 #include "server/jobs/estimate.h"
 #include "server/jobs/job_control.h"
 #include "server/storage/blob_folder.h"
+#include "server/support/clock.h"
 #include "server/support/crypto.h"
+#include "tests/helpers/eventually.h"
 #include "tests/server/storage/test_store.h"
 
 namespace lastflat::server {
 namespace {
 
+using lastflat::test::eventually;
 using test::new_job;
 
 struct PoolSetting : test::TestStore {
@@ -37,13 +40,21 @@ struct PoolSetting : test::TestStore {
         const std::scoped_lock lock(mutex);
         return run < reports.size() ? reports[run].outcome : "";
     }
-    /// Waits for a final state; a test that waits for ever is ended by its time limit.
+    /// The job in its final state, which the pool announces.
     JobRecord ended(const std::string& id) {
+        JobWatch::Subscription subscription(watch, id);
+        const auto deadline = JobWatch::Clock::now() + lastflat::test::long_enough;
         for (;;) {
-            const JobRecord job = store.find("", id).value();
+            JobRecord job = store.find("", id).value();
             if (is_final(job.state)) return job;
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            REQUIRE(subscription.wait_until(deadline));
         }
+    }
+    [[nodiscard]] bool runs(const std::string& id) {
+        return eventually([&] { return state(id) == JobState::running; });
+    }
+    [[nodiscard]] bool reported(std::size_t run) {
+        return eventually([&] { return !outcome(run).empty(); });
     }
 };
 
@@ -57,8 +68,8 @@ ProcessEnd ended_as(Unfinished::Kind kind) {
 }
 
 ProcessEnd until_stopped(const ProcessControl& control) {
-    while (!control.must_stop()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return ended_as(Unfinished::Kind::stopped);
+    const bool stopped = eventually(control.must_stop);
+    return ended_as(stopped ? Unfinished::Kind::stopped : Unfinished::Kind::crashed);
 }
 
 }  // namespace
@@ -97,11 +108,11 @@ TEST_SUITE("server/runner/runner_pool") {
         for (const bool removes : {false, true}) {
             REQUIRE(s.add(new_job("A")) == Admission::queued);
             pool.wake();
-            while (s.state("A") != JobState::running) std::this_thread::yield();
+            REQUIRE(s.runs("A"));
             if (removes) {
                 CHECK(s.store.remove("", "A").has_value());
                 pool.cancel("A");
-                while (s.outcome(1).empty()) std::this_thread::yield();
+                REQUIRE(s.reported(1));
                 CHECK(s.outcome(1) == "lost");
             } else {
                 CHECK(s.store.cancel("", "A") == JobState::canceling);
@@ -144,7 +155,7 @@ TEST_SUITE("server/runner/runner_pool") {
         REQUIRE(s.add(new_job("A")) == Admission::queued);
         REQUIRE(s.add(new_job("B")) == Admission::queued);
         pool.wake();
-        while (s.state("A") != JobState::running) std::this_thread::yield();
+        REQUIRE(s.runs("A"));
         pool.stop(std::chrono::milliseconds(10));
         for (const char* id : {"A", "B"}) {
             CHECK(s.state(id) == JobState::queued);
@@ -154,24 +165,24 @@ TEST_SUITE("server/runner/runner_pool") {
 
     TEST_CASE("a lease is renewed while the job runs, and a lost one ends the run") {
         PoolSetting s;
+        constexpr std::int64_t lease_ms = 200;
         std::atomic<bool> go_on{true};
         RunnerPool pool(
-            s.store, s.blobs, s.watch, s.options(1, 60),
+            s.store, s.blobs, s.watch, s.options(1, lease_ms),
             [&](const Claim&, const std::filesystem::path& file, const ProcessControl& control) {
-                while (go_on) {
-                    if (control.must_stop()) return ended_as(Unfinished::Kind::stopped);
-                    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-                }
-                return finished(file);
+                bool stops = false;
+                (void)eventually([&] { return (stops = control.must_stop()) || !go_on; });
+                return stops ? ended_as(Unfinished::Kind::stopped) : finished(file);
             },
             s.log());
         REQUIRE(s.add(new_job("A")) == Admission::queued);
         pool.wake();
-        while (s.state("A") != JobState::running) std::this_thread::yield();
-        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        REQUIRE(s.runs("A"));
+        const std::int64_t first_end = now_ms() + lease_ms;
+        REQUIRE(eventually([&] { return now_ms() > first_end; }));
         CHECK(s.store.sweep(false, test::lost).changed.empty());
         CHECK(s.store.sweep(true, test::lost).changed.size() == 1);  // as if it had been silent
-        while (s.outcome(0).empty()) std::this_thread::yield();
+        REQUIRE(s.reported(0));
         CHECK(s.outcome(0) == "lost");
         go_on = false;
         CHECK(s.ended("A").attempt == 2);

@@ -7,10 +7,12 @@
 #include <thread>
 
 #include "server/support/clock.h"
+#include "tests/helpers/eventually.h"
 #include "tests/server/storage/test_store.h"
 
 namespace lastflat::server {
 
+using lastflat::test::eventually;
 using test::failure;
 using test::new_job;
 using test::success;
@@ -261,10 +263,12 @@ TEST_SUITE("server/storage/sqlite_store") {
         std::vector<std::thread> workers;
         for (int w = 0; w < 4; ++w) {
             workers.emplace_back([&] {
-                while (finished < jobs) {
-                    const auto claim = s.store.claim(long_lease);
-                    if (claim && s.store.finish(claim->lease, failure())) ++finished;
-                }
+                (void)eventually([&] {
+                    while (const auto claim = s.store.claim(long_lease)) {
+                        if (s.store.finish(claim->lease, failure())) ++finished;
+                    }
+                    return finished >= jobs;
+                });
             });
         }
         for (int i = 0; i < jobs; ++i) {

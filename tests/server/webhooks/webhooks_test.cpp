@@ -9,6 +9,7 @@
 #include "server/support/clock.h"
 #include "server/webhooks/dispatcher.h"
 #include "server/webhooks/private_address.h"
+#include "tests/helpers/eventually.h"
 #include "tests/server/storage/test_store.h"
 
 namespace lastflat::server {
@@ -170,7 +171,7 @@ TEST_SUITE("server/webhooks/dispatcher") {
                 const std::string& id = due.webhook.id;
                 return PostOutcome{id == "good" ? 204 : id == "gone" ? 410 : 500, "said"};
             });
-            while (posts < 3) std::this_thread::yield();
+            REQUIRE(lastflat::test::eventually([&] { return posts == 3; }));
         }
         CHECK(posts == 3);
         CHECK(webhooks.deliveries("good").at(0).delivered);
