@@ -29,7 +29,7 @@ teardown() { stop_servers; }
 @test "the unit starts the program that is installed" {
     local unit=$prefix/lib/systemd/system/lastflat.service
     [[ -x $ROOT$(sed -n 's/^ExecStart=\([^ ]*\) serve$/\1/p' "$unit") ]]
-    run -1 grep -n '@' "$unit"
+    run -1 grep -n '@[A-Z_]*@' "$unit"
 }
 
 @test "what the installed documents point to is installed" {
