@@ -43,7 +43,7 @@ Response submitted_response(const SubmitServices& service, const Request& reques
 }
 
 /// What is asked for and how; `id`: chosen by the client, else empty.
-Submission submission_of(const Request& request, const std::string& id) {
+Submission job_asked_by(const Request& request, const std::string& id) {
     Submission submission = read_submission(request);
     read_terms(request, submission);
     submission.id = id;
@@ -51,12 +51,12 @@ Submission submission_of(const Request& request, const std::string& id) {
 }
 
 Response post_job(const SubmitServices& service, const Request& request) {
-    Submitted submitted = service.intake.submit(submission_of(request, ""));
+    Submitted submitted = service.intake.submit(job_asked_by(request, ""));
     return submitted_response(service, request, std::move(submitted));
 }
 
 Response put_job(const SubmitServices& service, const Request& request) {
-    Submitted submitted = service.intake.submit(submission_of(request, request.captures.at(0)));
+    Submitted submitted = service.intake.submit(job_asked_by(request, request.captures.at(0)));
     const bool repeated = submitted.repeated;
     Response response = submitted_response(service, request, std::move(submitted));
     if (repeated) response.status = 200;

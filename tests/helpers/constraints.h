@@ -9,4 +9,8 @@ inline Constraint lock(std::string curve, Keep keep = Keep::edges) {
     return {Lock{std::move(curve), keep}};
 }
 
+inline Constraint range(std::string curve, double least, double most, std::string region = "") {
+    return {Range{std::move(curve), least, most, std::move(region)}};
+}
+
 }  // namespace lastflat

@@ -12,11 +12,6 @@
 namespace lastflat {
 namespace {
 
-Constraint range(const std::string& curve, double least, double most,
-                 const std::string& region = "") {
-    return {Range{curve, least, most, region}};
-}
-
 Constraint straight(const std::string& curve, const std::string& region = "") {
     return {Straight{curve, region}};
 }

@@ -3,18 +3,11 @@
 #include <doctest/doctest.h>
 
 #include "core/measure/report.h"
+#include "tests/helpers/constraints.h"
 #include "tests/helpers/minimum.h"
 #include "tests/helpers/shapes.h"
 
 namespace lastflat {
-namespace {
-
-Constraint range(const std::string& curve, double least, double most) {
-    return {Range{curve, least, most}};
-}
-
-}  // namespace
-
 TEST_SUITE("core/constrain/resolve_conflicts") {
     TEST_CASE("lengths that cannot be kept are an error that names a curve") {
         // On a dome the whole border and a ring inside it cannot all keep their edges.

@@ -31,8 +31,9 @@ public:
                   bytes.clear();
                   return std::optional<std::string>();
               },
-              [](const Refusal& refusal) {
-                  return std::to_string(refusal.status()) + " " + refusal.code() +
+              [](const RefusedHead& refusal) {
+                  return std::to_string(refusal.problem().status) + " " +
+                         std::string(refusal.problem().code.word()) +
                          (refusal.is_without_body() ? " without body" : "");
               }) {}
 
