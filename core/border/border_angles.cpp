@@ -47,16 +47,16 @@ Corners corners_of(const Region& region) {
 }
 
 /// The inner vertices in the order in which they are eliminated.
-std::vector<Index> inner_vertices(const OneRings& rings, const EliminationOrder& order) {
+std::vector<Index> inner_vertices(const Region& region, const EliminationOrder& order) {
     std::vector<Index> inner;
     for (const Index v : order) {
-        if (!rings.on_border(v)) inner.push_back(v);
+        if (!region.half_edges.on_border(v)) inner.push_back(v);
     }
     return inner;
 }
 
 /// The cotangent Laplacian between inner vertices in this order, upper triangle.
-SparseMatrix inner_laplacian(const Region& region, const OneRings& rings, const Corners& corners,
+SparseMatrix inner_laplacian(const Region& region, const Corners& corners,
                              const std::vector<Index>& inner) {
     const auto count = static_cast<Index>(inner.size());
     std::vector<Index> places(region.positions.size(), -1);
@@ -68,7 +68,7 @@ SparseMatrix inner_laplacian(const Region& region, const OneRings& rings, const 
     std::vector<Index> above;
     for (Index k = 0; k < count; ++k) {
         above.clear();
-        for (const Index w : rings.of(inner[static_cast<std::size_t>(k)])) {
+        for (const Index w : region.half_edges.ring(inner[static_cast<std::size_t>(k)])) {
             const Index row = places[static_cast<std::size_t>(w)];
             if (row >= 0 && row < k) above.push_back(row);
         }
@@ -98,9 +98,9 @@ SparseMatrix inner_laplacian(const Region& region, const OneRings& rings, const 
 }
 
 /// Scale factors u of the conformal map that keeps border lengths: A_II u = -Omega, u = 0 outside.
-std::vector<double> conformal_scale(const Region& region, const OneRings& rings,
-                                    const EliminationOrder& order, const Corners& corners) {
-    const auto inner = inner_vertices(rings, order);
+std::vector<double> conformal_scale(const Region& region, const EliminationOrder& order,
+                                    const Corners& corners) {
+    const auto inner = inner_vertices(region, order);
     std::vector<double> u(region.positions.size(), 0.0);
     if (inner.empty()) return u;
     Eigen::VectorXd omega(static_cast<Eigen::Index>(inner.size()));
@@ -109,16 +109,16 @@ std::vector<double> conformal_scale(const Region& region, const OneRings& rings,
             2.0 * pi - corners.angle_sums[static_cast<std::size_t>(inner[k])];
     }
     const Eigen::VectorXd solution =
-        SpdCholesky(inner_laplacian(region, rings, corners, inner)).solve(-omega);
+        SpdCholesky(inner_laplacian(region, corners, inner)).solve(-omega);
     for (std::size_t k = 0; k < inner.size(); ++k) {
         u[static_cast<std::size_t>(inner[k])] = solution[static_cast<Eigen::Index>(k)];
     }
     return u;
 }
 
-std::vector<double> curvature_turning(const Region& region, const OneRings& rings,
-                                      const EliminationOrder& order, const Corners& corners) {
-    const auto u = conformal_scale(region, rings, order, corners);
+std::vector<double> curvature_turning(const Region& region, const EliminationOrder& order,
+                                      const Corners& corners) {
+    const auto u = conformal_scale(region, order, corners);
     std::vector<double> flux(region.positions.size(), 0.0);  // A u
     for (std::size_t t = 0; t < region.triangles.size(); ++t) {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -147,12 +147,12 @@ double polar_angle(const Region& region, Index v, Index w, Index other, double a
 }
 
 /// The paper's gamma: the mean of both polar angles, where both neighbours are inside.
-double averaged_conformal_angle(const Region& region, const OneRings& rings,
-                                const std::vector<double>& sums, Index v, Index a, Index b) {
+double averaged_conformal_angle(const Region& region, const std::vector<double>& sums, Index v,
+                                Index a, Index b) {
     double sum = 0.0;
     int rings_used = 0;
     for (const auto& [w, other] : {std::pair(a, b), std::pair(b, a)}) {
-        if (rings.on_border(w)) continue;
+        if (region.half_edges.on_border(w)) continue;
         sum += polar_angle(region, v, w, other, sums[static_cast<std::size_t>(w)]);
         ++rings_used;
     }
@@ -172,23 +172,22 @@ void close_turning(const Region& region, std::vector<double>& turning) {
 
 }  // namespace
 
-BorderAngles border_angles(const Region& region, const OneRings& rings,
-                           const EliminationOrder& order, AngleRule rule) {
+BorderAngles border_angles(const Region& region, const EliminationOrder& order, AngleRule rule) {
     const Corners triangles = corners_of(region);
     const auto& sums = triangles.angle_sums;
     BorderAngles result;
     for (const Index v : region.border) {
-        const auto ring = rings.of(v);
+        const auto ring = region.half_edges.ring(v);
         result.corners.emplace_back();
         for (std::size_t j = 0; j + 1 < ring.size(); ++j) {
             result.corners.back().push_back(
                 rule == AngleRule::curvature
                     ? corner_angle(region, v, ring[j], ring[j + 1])
-                    : averaged_conformal_angle(region, rings, sums, v, ring[j], ring[j + 1]));
+                    : averaged_conformal_angle(region, sums, v, ring[j], ring[j + 1]));
         }
     }
     if (rule == AngleRule::curvature) {
-        result.turning = curvature_turning(region, rings, order, triangles);
+        result.turning = curvature_turning(region, order, triangles);
     } else {
         for (const auto& corners : result.corners) {
             result.turning.push_back(pi - std::accumulate(corners.begin(), corners.end(), 0.0));

@@ -1,8 +1,8 @@
 // How much the flat border turns at each of its vertices.
 #pragma once
 
-#include "core/cut/one_rings.h"
 #include "core/cut/region.h"
+#include "core/numerics/elimination_order.h"
 #include "core/request.h"
 
 namespace lastflat {
@@ -20,9 +20,9 @@ struct BorderAngles {
 ///         Laplacian A, A u = -Gauss curvature inside, u = 0 on the border; the turning becomes
 ///         k + A u. `averaged_conformal`: [kim-kim], section 3.3; what is missing from 2 pi is
 ///         spread over the border in proportion to its length.
-/// In:     a region (a disk), its rings and their elimination order.
+/// In:     a region (a disk), the elimination order of its half-edges.
 /// Throws: Error{solver_failed}.
-[[nodiscard]] BorderAngles border_angles(const Region& region, const OneRings& rings,
-                                         const EliminationOrder& order, AngleRule rule);
+[[nodiscard]] BorderAngles border_angles(const Region& region, const EliminationOrder& order,
+                                         AngleRule rule);
 
 }  // namespace lastflat

@@ -23,11 +23,10 @@ std::string border_edge_name(const Region& region, std::size_t i) {
 
 }  // namespace
 
-BorderPolygon border_polygon(const Region& region, const OneRings& rings,
-                             const EliminationOrder& order, const std::vector<bool>& locked,
-                             AngleRule rule) {
+BorderPolygon border_polygon(const Region& region, const EliminationOrder& order,
+                             const std::vector<bool>& locked, AngleRule rule) {
     BorderPolygon polygon;
-    polygon.angles = border_angles(region, rings, order, rule);
+    polygon.angles = border_angles(region, order, rule);
     polygon.points = tweak_edges(border_lengths(region), polygon.angles.turning, locked,
                                  [&](std::size_t edge) { return border_edge_name(region, edge); });
     return polygon;

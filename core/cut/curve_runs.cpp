@@ -9,38 +9,21 @@ struct Edge {
     Index from, to;  ///< region vertices
 };
 
-/// The region's edges, filed under the sources of their ends.
-class EdgesBySource {
-public:
-    explicit EdgesBySource(const Region& region) {
-        for (const Triangle& t : region.triangles) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                add(region, t[i], t[(i + 1) % 3]);
-                add(region, t[(i + 1) % 3], t[i]);
-            }
+/// All edges of the region from a vertex of source `a` to one of source `b`, ascending.
+std::vector<Edge> edges_between(const Region& region, Index a, Index b) {
+    const auto& sources = region.source_vertices;
+    const auto [first, last] = std::equal_range(sources.begin(), sources.end(), a);
+    std::vector<Edge> found;
+    for (auto source = first; source != last; ++source) {
+        const auto from = static_cast<Index>(source - sources.begin());
+        auto ring = region.half_edges.ring(from);
+        std::sort(ring.begin(), ring.end());
+        for (const Index to : ring) {
+            if (sources[at(to)] == b) found.push_back({from, to});
         }
-        std::sort(entries_.begin(), entries_.end());
-        entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
     }
-
-    /// All edges of the region from a vertex of source `a` to one of source `b`.
-    [[nodiscard]] std::vector<Edge> between(Index a, Index b) const {
-        std::vector<Edge> found;
-        auto entry = std::lower_bound(entries_.begin(), entries_.end(), Entry{a, b, -1, -1});
-        for (; entry != entries_.end() && (*entry)[0] == a && (*entry)[1] == b; ++entry) {
-            found.push_back({(*entry)[2], (*entry)[3]});
-        }
-        return found;
-    }
-
-private:
-    using Entry = std::array<Index, 4>;
-    void add(const Region& region, Index from, Index to) {
-        entries_.push_back({region.source_vertices[static_cast<std::size_t>(from)],
-                            region.source_vertices[static_cast<std::size_t>(to)], from, to});
-    }
-    std::vector<Entry> entries_;
-};
+    return found;
+}
 
 /// Appends the edge to the run that ends where it begins, or opens a new run.
 void append(std::vector<CurveRun>& open, const std::string& name, const Edge& edge,
@@ -71,11 +54,11 @@ void join_ends(const Curve& curve, std::vector<CurveRun>& runs) {
     }
 }
 
-std::vector<CurveRun> runs_of(const Curve& curve, const EdgesBySource& edges) {
+std::vector<CurveRun> runs_of(const Region& region, const Curve& curve) {
     std::vector<CurveRun> done, open;
     for (std::size_t i = 1; i < curve.vertices.size(); ++i) {
         std::vector<bool> extended(open.size(), false);
-        for (const Edge& edge : edges.between(curve.vertices[i - 1], curve.vertices[i])) {
+        for (const Edge& edge : edges_between(region, curve.vertices[i - 1], curve.vertices[i])) {
             append(open, curve.name, edge, extended);
         }
         std::vector<CurveRun> still_open;
@@ -92,10 +75,9 @@ std::vector<CurveRun> runs_of(const Curve& curve, const EdgesBySource& edges) {
 }  // namespace
 
 std::vector<CurveRun> curve_runs(const Region& region, const Curves& curves) {
-    const EdgesBySource edges(region);
     std::vector<CurveRun> runs;
     for (const Curve& curve : curves) {
-        auto found = runs_of(curve, edges);
+        auto found = runs_of(region, curve);
         std::move(found.begin(), found.end(), std::back_inserter(runs));
     }
     return runs;

@@ -8,13 +8,6 @@ namespace lastflat {
 EdgePaths::EdgePaths(const Region& region, const std::vector<Index>& from, double reach)
     : distance_(region.positions.size(), std::numeric_limits<double>::infinity()),
       before_(region.positions.size(), -1) {
-    std::vector<std::vector<Index>> neighbours(region.positions.size());
-    for (const Triangle& t : region.triangles) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            neighbours[static_cast<std::size_t>(t[i])].push_back(t[(i + 1) % 3]);
-            neighbours[static_cast<std::size_t>(t[(i + 1) % 3])].push_back(t[i]);
-        }
-    }
     using Entry = std::pair<double, Index>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     for (const Index v : from) {
@@ -25,7 +18,7 @@ EdgePaths::EdgePaths(const Region& region, const std::vector<Index>& from, doubl
         const auto [so_far, v] = queue.top();
         queue.pop();
         if (so_far > distance(v)) continue;
-        for (const Index next : neighbours[static_cast<std::size_t>(v)]) {
+        for (const Index next : region.half_edges.ring(v)) {
             const double way = so_far + region.distance(v, next);
             if (way >= distance(next) || way > reach) continue;
             distance_[static_cast<std::size_t>(next)] = way;

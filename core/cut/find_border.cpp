@@ -2,44 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <utility>
 
 #include "core/error.h"
 
 namespace lastflat {
 namespace {
-
-/// Directed edges (from, to) of all triangles, sorted.
-std::vector<std::pair<Index, Index>> directed_edges(const Region& region) {
-    std::vector<std::pair<Index, Index>> edges;
-    edges.reserve(3 * region.triangles.size());
-    for (const Triangle& t : region.triangles) {
-        for (std::size_t i = 0; i < 3; ++i) edges.emplace_back(t[i], t[(i + 1) % 3]);
-    }
-    std::sort(edges.begin(), edges.end());
-    return edges;
-}
-
-/// Border loops, each from its smallest vertex, in the order of those.
-std::vector<std::vector<Index>> border_loops(const Region& region,
-                                             const std::vector<std::pair<Index, Index>>& edges) {
-    std::vector<Index> next(region.positions.size(), -1);
-    for (const auto& [a, b] : edges) {
-        if (!std::binary_search(edges.begin(), edges.end(), std::pair(b, a))) {
-            next[static_cast<std::size_t>(a)] = b;
-        }
-    }
-    std::vector<std::vector<Index>> loops;
-    for (std::size_t start = 0; start < next.size(); ++start) {
-        if (next[start] < 0) continue;
-        loops.emplace_back();
-        for (auto v = static_cast<Index>(start); next[static_cast<std::size_t>(v)] >= 0;) {
-            loops.back().push_back(v);
-            v = std::exchange(next[static_cast<std::size_t>(v)], -1);
-        }
-    }
-    return loops;
-}
 
 std::string loop_places(const Region& region, const std::vector<std::vector<Index>>& loops) {
     std::string text;
@@ -82,13 +49,13 @@ std::size_t outer_loop(const Region& region, const std::vector<std::vector<Index
 }  // namespace
 
 void find_border(Region& region) {
-    const auto edges = directed_edges(region);
-    auto loops = border_loops(region, edges);
+    region.half_edges = HalfEdges(region);
+    auto loops = region.half_edges.border_loops();
     std::size_t border_edges = 0;
     for (const auto& loop : loops) border_edges += loop.size();
     const auto vertices = static_cast<std::int64_t>(region.positions.size());
     const auto faces = static_cast<std::int64_t>(region.triangles.size());
-    const auto sides = (static_cast<std::int64_t>(edges.size() + border_edges)) / 2;
+    const auto sides = (3 * faces + static_cast<std::int64_t>(border_edges)) / 2;
     const std::int64_t euler = vertices - sides + faces;  // 2 - 2 genus - loops
     const std::int64_t genus = (2 - euler - static_cast<std::int64_t>(loops.size())) / 2;
     if (loops.empty()) {

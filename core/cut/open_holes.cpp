@@ -168,7 +168,7 @@ private:
                     distances.distance[static_cast<std::size_t>(end)])
                 end = v;
         }
-        GeodesicPath path = trace_path(geodesics.half_edges(), distances, end);
+        GeodesicPath path = trace_path(geodesics.unfolding(), distances, end);
         for (PathPoint& point : path.points) {
             point.a = source[static_cast<std::size_t>(point.a)];
             point.b = source[static_cast<std::size_t>(point.b)];

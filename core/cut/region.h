@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/numerics/types.h"
+#include "core/numerics/half_edges.h"
 
 namespace lastflat {
 
@@ -24,6 +24,7 @@ struct Region : Triangulation {
     std::vector<std::vector<Index>> holes{};  ///< all other loops: clockwise
     std::vector<Index> source_vertices;       ///< per vertex, its id in the file
     std::vector<CurveRun> runs;
+    HalfEdges half_edges;
 
     [[nodiscard]] double distance(Index a, Index b) const {
         return (position(a) - position(b)).norm();

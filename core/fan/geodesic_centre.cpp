@@ -9,11 +9,10 @@ namespace lastflat {
 namespace {
 
 std::vector<Index> candidates(const Region& region) {
-    const auto on_border = border_mask(region);
     std::vector<Index> inner, all;
-    for (Index v = 0; v < static_cast<Index>(on_border.size()); ++v) {
+    for (Index v = 0; v < region.half_edges.vertex_count(); ++v) {
         all.push_back(v);
-        if (!on_border[static_cast<std::size_t>(v)]) inner.push_back(v);
+        if (!region.half_edges.on_border(v)) inner.push_back(v);
     }
     return inner.empty() ? all : inner;
 }

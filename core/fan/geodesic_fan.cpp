@@ -51,17 +51,16 @@ double mean_over_surface(const Region& region, const std::vector<double>& values
 
 }  // namespace
 
-ConformalPlane::ConformalPlane(const HalfEdges& half_edges, Index vertex) {
-    const double scale =
-        half_edges.on_border(vertex) ? 1.0 : 2.0 * pi / half_edges.total_angle(vertex);
-    const Index first = half_edges.outgoing(vertex);
+ConformalPlane::ConformalPlane(const Region& region, Index vertex) {
+    const HalfEdges& half_edges = region.half_edges;
+    double total = 0.0;
+    for (const Index h : half_edges.around(vertex)) total += frame_of(region, h).angle();
+    const double scale = half_edges.on_border(vertex) ? 1.0 : 2.0 * pi / total;
     double begin = 0.0;
-    for (Index h = first; h >= 0;) {
+    for (const Index h : half_edges.around(vertex)) {
         by_side_.emplace_back(half_edges.to(h), corners_.size());
         corners_.push_back({half_edges.to(h), half_edges.apex(h), begin, scale});
-        begin += scale * half_edges.angle(h);
-        h = half_edges.rotated(h);
-        if (h == first) break;
+        begin += scale * frame_of(region, h).angle();
     }
     std::sort(by_side_.begin(), by_side_.end());
 }
@@ -73,7 +72,7 @@ const ConformalPlane::Corner* ConformalPlane::side_to(Index to) const {
 }
 
 GeodesicFan geodesic_fan(const Region& region, bool keep_paths, const Progress& progress) {
-    const ExactGeodesics geodesics(region);
+    const ExactGeodesics geodesics(Unfolding(region, region.half_edges));
     const GeodesicCentre centre = geodesic_centre(region, geodesics, progress);
     const auto& distance = centre.distances.distance;
     GeodesicFan fan{centre.vertex,
@@ -82,12 +81,12 @@ GeodesicFan geodesic_fan(const Region& region, bool keep_paths, const Progress& 
                     centre.radius,
                     {},
                     centre.runs};
-    const ConformalPlane plane(geodesics.half_edges(), centre.vertex);
+    const ConformalPlane plane(region, centre.vertex);
     constexpr std::size_t most_points = 4'000'000;
     std::size_t points = 0;
     for (const Index v : region.border) {
         progress.check();
-        GeodesicPath path = trace_path(geodesics.half_edges(), centre.distances, v);
+        GeodesicPath path = trace_path(geodesics.unfolding(), centre.distances, v);
         // Only where no vertex is inner is the centre itself on the border.
         const double angle =
             v == centre.vertex ? 0.0 : angle_of_departure(region, plane, centre.vertex, path);

@@ -39,7 +39,7 @@ public:
         Index to, apex;       ///< the triangle's other vertices, counter-clockwise
         double begin, scale;  ///< radians: where the side to `to` lies; plane over surface
     };
-    ConformalPlane(const HalfEdges& half_edges, Index vertex);
+    ConformalPlane(const Region& region, Index vertex);
 
     /// Counter-clockwise, from the vertex's first half-edge.
     [[nodiscard]] const std::vector<Corner>& corners() const { return corners_; }

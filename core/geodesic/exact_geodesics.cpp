@@ -78,13 +78,12 @@ private:
 
 class Propagation {
 public:
-    Propagation(const HalfEdges& half_edges, const std::vector<double>& total_angles,
+    Propagation(const Unfolding& unfolding, const std::vector<double>& total_angles,
                 std::size_t most_windows)
-        : half_edges_(half_edges),
+        : half_edges_(unfolding),
           total_angles_(total_angles),
-          splits_(static_cast<std::size_t>(half_edges.count())),
-          buckets_(0.3 * median_length(half_edges),
-                   4 * static_cast<std::size_t>(half_edges.count()), most_windows) {
+          splits_(at(unfolding.count())),
+          buckets_(0.3 * median_length(unfolding), 4 * at(unfolding.count()), most_windows) {
         result_.distance.assign(total_angles.size(), infinity);
         result_.arrivals.assign(total_angles.size(), {GeodesicDistances::no_root, -1, {0, 0}});
     }
@@ -100,9 +99,9 @@ public:
     GeodesicDistances from_point(const SurfacePoint& point, const Progress& progress) {
         const Index first = 3 * point.triangle;
         const Vec2 place = point.weights[1] * Vec2(half_edges_.length(first), 0.0) +
-                           point.weights[2] * half_edges_.apex_place(first);
+                           point.weights[2] * half_edges_.apex_position(first);
         const std::array<Vec2, 3> corners{Vec2(0, 0), Vec2(half_edges_.length(first), 0.0),
-                                          half_edges_.apex_place(first)};
+                                          half_edges_.apex_position(first)};
         for (std::size_t i = 0; i < 3; ++i) {
             const Index h = first + static_cast<Index>(i);
             const Vec2 along = (corners[(i + 1) % 3] - corners[i]) / half_edges_.length(h);
@@ -119,11 +118,11 @@ public:
 private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    static double median_length(const HalfEdges& half_edges) {
+    static double median_length(const Unfolding& unfolding) {
         std::vector<double> lengths;
-        lengths.reserve(static_cast<std::size_t>(half_edges.count()));
-        for (Index h = 0; h < half_edges.count(); ++h) lengths.push_back(half_edges.length(h));
-        const auto middle = lengths.begin() + half_edges.count() / 2;
+        lengths.reserve(at(unfolding.count()));
+        for (Index h = 0; h < unfolding.count(); ++h) lengths.push_back(unfolding.length(h));
+        const auto middle = lengths.begin() + unfolding.count() / 2;
         std::nth_element(lengths.begin(), middle, lengths.end());
         return *middle;
     }
@@ -177,9 +176,8 @@ private:
         const bool border = half_edges_.on_border(vertex);
         const double total = total_angles_[at(vertex)];
         const double came = whole ? 0.0 : direction_of_arrival(vertex);
-        const Index first = half_edges_.outgoing(vertex);
         double begin = 0.0;
-        for (Index h = first; h >= 0;) {
+        for (const Index h : half_edges_.around(vertex)) {
             const double end = begin + half_edges_.angle(h);
             // Turned so that the path came from 0; around an inner vertex modulo the total angle.
             const auto sees = [&](double low, double high) {
@@ -189,8 +187,6 @@ private:
                                               : sees(pi, total - pi) || sees(pi - total, -pi));
             if (lit) open_triangle(h, offset);
             begin = end;
-            h = half_edges_.rotated(h);
-            if (h == first) break;
         }
     }
 
@@ -199,26 +195,23 @@ private:
         reach(half_edges_.to(h), offset + half_edges_.length(h), {vertex, -1, {0, 0}});
         reach(half_edges_.apex(h), offset + half_edges_.length(HalfEdges::previous(h)),
               {vertex, -1, {0, 0}});
-        shine(opposite, half_edges_.apex_place(opposite), offset, vertex);
+        shine(opposite, half_edges_.apex_position(opposite), offset, vertex);
     }
 
     /// The angle at the vertex, counted from its first half-edge, towards where its path came from.
     double direction_of_arrival(Index vertex) const {
         const auto& arrival = result_.arrivals[at(vertex)];
-        const Index first = half_edges_.outgoing(vertex);
         double begin = 0.0;
-        for (Index h = first; h >= 0;) {
+        for (const Index h : half_edges_.around(vertex)) {
             const Index last = HalfEdges::previous(h), opposite = HalfEdges::next(h);
             if (arrival.half_edge == opposite) {
-                const Vec2& apex = half_edges_.apex_place(opposite);
+                const Vec2& apex = half_edges_.apex_position(opposite);
                 const Vec2 along_h = -apex, back = arrival.place - apex;
                 return begin + std::atan2(cross(along_h, back), along_h.dot(back));
             }
             if (arrival.half_edge < 0 && half_edges_.to(h) == arrival.root) return begin;
             begin += half_edges_.angle(h);
             if (arrival.half_edge < 0 && half_edges_.from(last) == arrival.root) return begin;
-            h = half_edges_.rotated(h);
-            if (h == first) break;
         }
         return begin;
     }
@@ -226,7 +219,7 @@ private:
     /// Light falls through a triangle: on its third corner and out through both other edges.
     void propagate(const Window& w) {
         const Index h = w.half_edge, left = HalfEdges::previous(h), right = HalfEdges::next(h);
-        const Vec2& apex = half_edges_.apex_place(h);
+        const Vec2& apex = half_edges_.apex_position(h);
         const double length = half_edges_.length(h), depth = -w.place.y();
         const double slack = tolerance::geodesic_slack * length;
         // Where the line from the root to the apex passes the edge.
@@ -299,7 +292,7 @@ private:
         double distance = infinity, x = 0.0;
     };
 
-    const HalfEdges& half_edges_;
+    const Unfolding& half_edges_;
     const std::vector<double>& total_angles_;
     std::vector<Split> splits_;
     Buckets buckets_;
@@ -309,32 +302,33 @@ private:
 }  // namespace
 
 ExactGeodesics::ExactGeodesics(const Triangulation& surface, std::size_t windows_per_half_edge)
-    : half_edges_(surface),
-      most_windows_(windows_per_half_edge * static_cast<std::size_t>(half_edges_.count())) {
-    total_angles_.assign(surface.positions.size(), 0.0);
-    for (Index v = 0; v < half_edges_.vertex_count(); ++v) {
-        if (half_edges_.outgoing(v) < 0) continue;
-        const double total = half_edges_.total_angle(v);
-        const double straight = half_edges_.on_border(v) ? pi : 2.0 * pi;
-        if (total > straight * (1.0 + tolerance::geodesic_round_off)) {
-            total_angles_[static_cast<std::size_t>(v)] = total;
-        }
+    : ExactGeodesics(Unfolding(surface, HalfEdges(surface)), windows_per_half_edge) {}
+
+ExactGeodesics::ExactGeodesics(Unfolding unfolding, std::size_t windows_per_half_edge)
+    : unfolding_(std::move(unfolding)),
+      most_windows_(windows_per_half_edge * at(unfolding_.count())),
+      total_angles_(at(unfolding_.vertex_count()), 0.0) {
+    for (Index v = 0; v < unfolding_.vertex_count(); ++v) {
+        double total = 0.0;
+        for (const Index h : unfolding_.around(v)) total += unfolding_.angle(h);
+        const double straight = unfolding_.on_border(v) ? pi : 2.0 * pi;
+        if (total > straight * (1.0 + tolerance::geodesic_round_off)) total_angles_[at(v)] = total;
     }
 }
 
 GeodesicDistances ExactGeodesics::from_vertex(Index vertex, const Progress& progress) const {
-    return Propagation(half_edges_, total_angles_, most_windows_).from_vertex(vertex, progress);
+    return Propagation(unfolding_, total_angles_, most_windows_).from_vertex(vertex, progress);
 }
 
 GeodesicDistances ExactGeodesics::from_point(const SurfacePoint& point,
                                              const Progress& progress) const {
     Eigen::Index corner = 0;
     if (point.weights.maxCoeff(&corner) >= 1.0 - tolerance::geodesic_round_off) {
-        return from_vertex(half_edges_.from(3 * point.triangle + static_cast<Index>(corner)),
+        return from_vertex(unfolding_.from(3 * point.triangle + static_cast<Index>(corner)),
                            progress);
     }
     GeodesicDistances result =
-        Propagation(half_edges_, total_angles_, most_windows_).from_point(point, progress);
+        Propagation(unfolding_, total_angles_, most_windows_).from_point(point, progress);
     result.source = point;
     return result;
 }

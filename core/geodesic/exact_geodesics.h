@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/geodesic/half_edges.h"
+#include "core/geodesic/unfolding.h"
 #include "core/progress.h"
 
 namespace lastflat {
@@ -47,6 +47,7 @@ public:
     /// `windows_per_half_edge`: how many a run may make on average; smooth surfaces of a million
     /// triangles take 200, malicious ones any number.
     explicit ExactGeodesics(const Triangulation& surface, std::size_t windows_per_half_edge = 500);
+    explicit ExactGeodesics(Unfolding unfolding, std::size_t windows_per_half_edge = 500);
 
     /// Throws: Error{cancelled}; Error{solver_failed} if a run would make too many windows, or
     /// if round-off in a row of nearly flat vertices hides one from all of them.
@@ -54,10 +55,10 @@ public:
     [[nodiscard]] GeodesicDistances from_point(const SurfacePoint& point,
                                                const Progress& progress) const;
 
-    [[nodiscard]] const HalfEdges& half_edges() const { return half_edges_; }
+    [[nodiscard]] const Unfolding& unfolding() const { return unfolding_; }
 
 private:
-    HalfEdges half_edges_;
+    Unfolding unfolding_;
     std::size_t most_windows_;
     std::vector<double> total_angles_;  ///< per vertex where paths may bend; 0: they cannot
 };

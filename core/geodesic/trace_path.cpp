@@ -20,35 +20,35 @@ struct Line {
 };
 
 /// Whether the line's root is the third corner of the triangle it has just entered.
-bool ends_at_apex(const HalfEdges& half_edges, const Line& line, Index root) {
+bool ends_at_apex(const Unfolding& unfolding, const Line& line, Index root) {
     constexpr double round_off = 1e-6;  // of the triangle's size; other corners are further away
-    return half_edges.apex(line.half_edge) == root &&
-           (half_edges.apex_place(line.half_edge) - line.root).norm() <
-               round_off * half_edges.length(line.half_edge);
+    return unfolding.apex(line.half_edge) == root &&
+           (unfolding.apex_position(line.half_edge) - line.root).norm() <
+               round_off * unfolding.length(line.half_edge);
 }
 
 /// The edge through which the line leaves the triangle that it entered, seen from the next one.
 /// The half-edge is -1 if there is no next one.
-Line crossed(const HalfEdges& half_edges, const Line& line) {
+Line crossed(const Unfolding& unfolding, const Line& line) {
     const Index h = line.half_edge;
-    const Vec2& apex = half_edges.apex_place(h);
+    const Vec2& apex = unfolding.apex_position(h);
     const Vec2 entry(line.x, 0.0), direction = line.root - entry;
     const bool left = cross(apex - entry, direction) > 0.0;
     const Index exit = left ? HalfEdges::previous(h) : HalfEdges::next(h);
     const Vec2 origin = left ? Vec2::Zero() : apex;
-    const Vec2 end = left ? apex : Vec2(half_edges.length(h), 0.0);
-    const Vec2 along = (end - origin) / half_edges.length(exit);
+    const Vec2 end = left ? apex : Vec2(unfolding.length(h), 0.0);
+    const Vec2 along = (end - origin) / unfolding.length(exit);
     const double sine = cross(direction, along);
     const double x = sine != 0.0 ? cross(direction, entry - origin) / sine : 0.0;
-    return {half_edges.twin(exit),
-            std::clamp(x, 0.0, half_edges.length(exit)),
+    return {unfolding.twin(exit),
+            std::clamp(x, 0.0, unfolding.length(exit)),
             {along.dot(line.root - origin), cross(along, line.root - origin)}};
 }
 
 /// Appends the straight stretch before `vertex`, from there backwards, and returns where it begins:
 /// at its root, or at a vertex that it passes closely. Over that vertex the way is as long, and
 /// which side of it the line passes round-off would decide.
-Index trace_stretch(const HalfEdges& half_edges, const GeodesicDistances& distances,
+Index trace_stretch(const Unfolding& unfolding, const GeodesicDistances& distances,
                     const Arrival& arrival, Index vertex, std::vector<PathPoint>& points) {
     const auto lose_way = [&] {
         throw Error(
@@ -59,26 +59,26 @@ Index trace_stretch(const HalfEdges& half_edges, const GeodesicDistances& distan
                              arrival.half_edge / 3 == distances.source.triangle;
     if (arrival.half_edge < 0 || from_inside) return arrival.root;
     // First across the arrival's own edge, seen from the triangle before it.
-    const Vec2& apex = half_edges.apex_place(arrival.half_edge);
-    const double length = half_edges.length(arrival.half_edge), depth = -arrival.place.y();
+    const Vec2& apex = unfolding.apex_position(arrival.half_edge);
+    const double length = unfolding.length(arrival.half_edge), depth = -arrival.place.y();
     const double x =
         arrival.place.x() + (apex.x() - arrival.place.x()) * depth / (apex.y() + depth);
-    Line line{half_edges.twin(arrival.half_edge),
+    Line line{unfolding.twin(arrival.half_edge),
               std::clamp(length - x, 0.0, length),
               {length - arrival.place.x(), depth}};
-    for (Index step = 0; step < half_edges.count(); ++step) {
+    for (Index step = 0; step < unfolding.count(); ++step) {
         if (line.half_edge < 0) lose_way();
-        const Index from = half_edges.from(line.half_edge), to = half_edges.to(line.half_edge);
-        const double share = line.x / half_edges.length(line.half_edge);
+        const Index from = unfolding.from(line.half_edge), to = unfolding.to(line.half_edge);
+        const double share = line.x / unfolding.length(line.half_edge);
         if (share < tolerance::geodesic_slack) return from;
         if (share > 1.0 - tolerance::geodesic_slack) return to;
         points.push_back({from, to, share});
         if (arrival.root == GeodesicDistances::no_root
                 ? line.half_edge / 3 == distances.source.triangle
-                : ends_at_apex(half_edges, line, arrival.root)) {
+                : ends_at_apex(unfolding, line, arrival.root)) {
             return arrival.root;
         }
-        line = crossed(half_edges, line);
+        line = crossed(unfolding, line);
     }
     lose_way();
     return arrival.root;
@@ -86,14 +86,14 @@ Index trace_stretch(const HalfEdges& half_edges, const GeodesicDistances& distan
 
 }  // namespace
 
-GeodesicPath trace_path(const HalfEdges& half_edges, const GeodesicDistances& distances,
+GeodesicPath trace_path(const Unfolding& unfolding, const GeodesicDistances& distances,
                         Index vertex) {
     GeodesicPath path;
     for (Index at = vertex; at != GeodesicDistances::no_root;) {
         path.points.push_back({at, at, 0.0});
         if (at == distances.source_vertex) break;
         const Arrival& arrival = distances.arrivals[static_cast<std::size_t>(at)];
-        at = trace_stretch(half_edges, distances, arrival, at, path.points);
+        at = trace_stretch(unfolding, distances, arrival, at, path.points);
     }
     std::reverse(path.points.begin(), path.points.end());
     return path;

@@ -21,10 +21,10 @@ struct GeodesicPath {
 /// Unfolds the triangles backwards from the vertex along the straight line on which its shortest
 /// path arrived; again from each vertex where that path bends.
 ///
-/// In:     distances on the same half-edges; a vertex.
+/// In:     distances on the same unfolding; a vertex.
 /// Out:    a path as long as the vertex's distance.
 /// Throws: Error{solver_failed} if the line loses its way among degenerate triangles.
-[[nodiscard]] GeodesicPath trace_path(const HalfEdges& half_edges,
+[[nodiscard]] GeodesicPath trace_path(const Unfolding& unfolding,
                                       const GeodesicDistances& distances, Index vertex);
 
 /// The point of a path in space or in the plane, given the places of the vertices.

@@ -12,7 +12,7 @@ namespace {
 /// plane of the centre. From a centre on the border +x may leave the region: then it is counted
 /// from the side nearest to it.
 double polar_base(const Region& region, const Points2& uv, Index centre) {
-    const ConformalPlane plane(HalfEdges(region), centre);
+    const ConformalPlane plane(region, centre);
     const auto at = [&](Index v) -> const Vec2& { return uv[static_cast<std::size_t>(v)]; };
     const Vec3& origin = region.position(centre);
     double nearest = HUGE_VAL, base = 0.0;

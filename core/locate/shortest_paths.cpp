@@ -124,7 +124,7 @@ std::vector<SurfacePlace> shortest_paths(const SurfaceMesh& surface,
                         "no way leads over the surface to " + place(position))
                 .at_position(position);
         }
-        const GeodesicPath path = trace_path(geodesics.half_edges(), distances, stops[i]);
+        const GeodesicPath path = trace_path(geodesics.unfolding(), distances, stops[i]);
         for (std::size_t k = 1; k < path.points.size(); ++k)
             line.push_back(with_places.place(path.points[k]));
     }

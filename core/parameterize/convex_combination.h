@@ -1,6 +1,7 @@
 // The convex combination family: one linear system for every choice of weights.
 #pragma once
 
+#include "core/numerics/elimination_order.h"
 #include "core/parameterize/weights.h"
 
 namespace lastflat {

@@ -42,6 +42,7 @@ Region with_holes_filled(const Region& region) {
         for (std::size_t i = 0; i < hole.size(); ++i)
             filled.triangles.push_back({hole[(i + 1) % hole.size()], hole[i], apex});
     }
+    if (!region.holes.empty()) filled.half_edges = HalfEdges(filled);
     return filled;
 }
 

@@ -13,16 +13,16 @@ namespace {
 
 /// The star of border vertex i: inside as flattened, outside as the layer lies in the plane.
 /// Vertices count from 0, their virtual partners follow in border order.
-Star floating_star(const Region& region, const OneRings& rings, std::size_t i,
-                   const BorderPolygon& polygon, const Points2& partners) {
+Star floating_star(const Region& region, std::size_t i, const BorderPolygon& polygon,
+                   const Points2& partners) {
     const std::size_t n = region.border.size(), before = (i + n - 1) % n, after = (i + 1) % n;
     const Index vertex = region.border[i];
     const auto first_partner = static_cast<Index>(region.positions.size());
     Star star;
-    const auto ring = rings.of(vertex);
-    star.neighbours.assign(ring.begin(), ring.end());
+    star.neighbours = region.half_edges.ring(vertex);
     star.angles = polygon.angles.corners[i];
-    for (const Index neighbour : ring) star.distances.push_back(region.distance(vertex, neighbour));
+    for (const Index neighbour : star.neighbours)
+        star.distances.push_back(region.distance(vertex, neighbour));
 
     const Vec2& here = polygon.points[i];
     star.angles.push_back(angle_at(here, polygon.points[before], partners[before]));
@@ -37,9 +37,8 @@ Star floating_star(const Region& region, const OneRings& rings, std::size_t i,
 
 }  // namespace
 
-Chart flatten_floating_border(const Region& region, const OneRings& rings,
-                              const EliminationOrder& order, WeightRule weights,
-                              const BorderPolygon& polygon) {
+Chart flatten_floating_border(const Region& region, const EliminationOrder& order,
+                              WeightRule weights, const BorderPolygon& polygon) {
     const auto lengths = border_lengths(region);
     const double mean_edge =
         std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
@@ -48,13 +47,13 @@ Chart flatten_floating_border(const Region& region, const OneRings& rings,
     WeightRows rows(region.positions.size() + partners.size());
     for (std::size_t v = 0; v < region.positions.size(); ++v) {
         const auto vertex = static_cast<Index>(v);
-        if (!rings.on_border(vertex)) {
-            rows[v] = weighted_neighbours(surface_star(region, rings, vertex), weights);
+        if (!region.half_edges.on_border(vertex)) {
+            rows[v] = weighted_neighbours(surface_star(region, vertex), weights);
         }
     }
     for (std::size_t i = 0; i < region.border.size(); ++i) {
         rows[static_cast<std::size_t>(region.border[i])] =
-            weighted_neighbours(floating_star(region, rings, i, polygon, partners), weights);
+            weighted_neighbours(floating_star(region, i, polygon, partners), weights);
     }
     Points2 fixed(region.positions.size(), Vec2::Zero());
     fixed.insert(fixed.end(), partners.begin(), partners.end());

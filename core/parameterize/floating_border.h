@@ -13,11 +13,10 @@ namespace lastflat {
 /// method, the geodesic fan.
 ///
 /// Paper:  [kim-kim], section 3; the layer: [lee-2002].
-/// In:     a region, its rings and their elimination order; the border's polygon.
+/// In:     a region, the elimination order of its half-edges; the border's polygon.
 /// Out:    not yet scaled: the layer's tension changes lengths by a few percent.
 /// Throws: Error{method_failed} if the polygon winds around itself; Error{solver_failed}.
-[[nodiscard]] Chart flatten_floating_border(const Region& region, const OneRings& rings,
-                                            const EliminationOrder& order, WeightRule weights,
-                                            const BorderPolygon& polygon);
+[[nodiscard]] Chart flatten_floating_border(const Region& region, const EliminationOrder& order,
+                                            WeightRule weights, const BorderPolygon& polygon);
 
 }  // namespace lastflat

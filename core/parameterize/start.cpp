@@ -12,10 +12,9 @@ namespace {
 
 Chart floating_chart(const Region& region, const std::vector<bool>& locked, WeightRule weights,
                      AngleRule angles) {
-    const OneRings rings(region);
-    const EliminationOrder order = elimination_order(rings);
-    return flatten_floating_border(region, rings, order, weights,
-                                   border_polygon(region, rings, order, locked, angles));
+    const EliminationOrder order = elimination_order(region.half_edges);
+    return flatten_floating_border(region, order, weights,
+                                   border_polygon(region, order, locked, angles));
 }
 
 /// Why a chart cannot be the start of an energy; empty: it can.
@@ -92,13 +91,13 @@ Start energy_start(const Region& region, const Region& disk, const std::vector<b
 }
 
 /// The two that have negative weights on obtuse or concave stars: how many, and where first.
-void warn_of_negative_weights(const Region& region, const OneRings& rings, WeightRule rule,
+void warn_of_negative_weights(const Region& region, WeightRule rule,
                               std::vector<Warning>& warnings) {
     std::size_t count = 0;
     std::optional<Vec3> where;
     for (Index v = 0; v < static_cast<Index>(region.positions.size()); ++v) {
-        if (rings.on_border(v)) continue;
-        for (const double weight : rule(surface_star(region, rings, v))) {
+        if (region.half_edges.on_border(v)) continue;
+        for (const double weight : rule(surface_star(region, v))) {
             if (weight >= 0.0) continue;
             ++count;
             if (!where) where = region.position(v);
@@ -135,11 +134,10 @@ Points2 convex_border(const Region& region, const std::vector<bool>& locked, Bor
     switch (shape) {
         case BorderShape::square: return bulged_under_chords(region, square_border(region));
         case BorderShape::hull: {
-            const OneRings rings(region);
             return bulged_under_chords(
-                region,
-                hull_border(border_polygon(region, rings, elimination_order(rings), locked, angles)
-                                .points));
+                region, hull_border(border_polygon(region, elimination_order(region.half_edges),
+                                                   locked, angles)
+                                        .points));
         }
         case BorderShape::circle:
         case BorderShape::floating: break;
@@ -156,7 +154,7 @@ Start start_chart(const Region& region, const std::vector<bool>& locked_border,
     const WeightRule rule = weight_rule(method.name);
     Start start;
     if (rule == harmonic_weights || rule == wachspress_weights) {
-        warn_of_negative_weights(region, OneRings(region), rule, start.warnings);
+        warn_of_negative_weights(region, rule, start.warnings);
     }
     const bool floats = method.border == BorderShape::floating ||
                         method.name == MethodName::virtual_border ||

@@ -5,10 +5,10 @@
 
 namespace lastflat {
 
-Star surface_star(const Region& region, const OneRings& rings, Index vertex) {
+Star surface_star(const Region& region, Index vertex) {
     Star star;
-    const auto ring = rings.of(vertex);
-    star.neighbours.assign(ring.begin(), ring.end());
+    star.neighbours = region.half_edges.ring(vertex);
+    const auto& ring = star.neighbours;
     const std::size_t n = ring.size();
     star.distances.resize(n);
     star.angles.resize(n);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/cut/one_rings.h"
+#include "core/cut/region.h"
 
 namespace lastflat {
 
@@ -20,7 +20,7 @@ struct Star {
 };
 
 /// The star of an inner vertex as it is on the surface: 3D distances, 3D angles.
-[[nodiscard]] Star surface_star(const Region& region, const OneRings& rings, Index vertex);
+[[nodiscard]] Star surface_star(const Region& region, Index vertex);
 
 /// One weight for each neighbour, not normalised.
 using WeightRule = std::vector<double> (*)(const Star& star);

@@ -11,8 +11,7 @@ namespace lastflat {
 namespace {
 
 BorderAngles angles_of(const Region& region, AngleRule rule) {
-    const OneRings rings(region);
-    return border_angles(region, rings, elimination_order(rings), rule);
+    return border_angles(region, elimination_order(region.half_edges), rule);
 }
 
 using std::numbers::pi;

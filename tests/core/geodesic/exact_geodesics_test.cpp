@@ -85,7 +85,7 @@ TEST_SUITE("core/geodesic/exact_geodesics") {
                     hidden ? (corner - from).norm() + (p - corner).norm() : (p - from).norm();
                 CAPTURE(p.transpose());
                 CHECK(std::abs(at(distances, v) - expected) < 1e-10);
-                CHECK(std::abs(length_of(region, trace_path(geodesics.half_edges(), distances, v)) -
+                CHECK(std::abs(length_of(region, trace_path(geodesics.unfolding(), distances, v)) -
                                expected) < 1e-10);
             }
         }
@@ -149,7 +149,7 @@ TEST_SUITE("core/geodesic/exact_geodesics") {
                     CHECK(std::abs(at(back, c) - at(distances, v)) <=
                           (region.position(c) - place).norm() + 1e-10);
                 }
-                const auto path = trace_path(geodesics.half_edges(), distances, v);
+                const auto path = trace_path(geodesics.unfolding(), distances, v);
                 const double first =
                     (place_of(path.points.front(), region.positions) - place).norm();
                 CHECK(first + length_of(region, path) ==
@@ -163,7 +163,7 @@ TEST_SUITE("core/geodesic/exact_geodesics") {
             const ExactGeodesics geodesics(region);
             const auto distances = geodesics.from_vertex(30, Progress());
             for (Index v = 0; v < static_cast<Index>(region.positions.size()); ++v) {
-                const auto path = trace_path(geodesics.half_edges(), distances, v);
+                const auto path = trace_path(geodesics.unfolding(), distances, v);
                 CHECK(path.points.front().a == 30);
                 CHECK(path.points.back().a == v);
                 CHECK(std::abs(length_of(region, path) - at(distances, v)) < 1e-10);

@@ -12,11 +12,10 @@ namespace {
 
 Chart fan(const Region& region, AngleRule rule = AngleRule::curvature) {
     const std::vector<bool> free(region.border.size(), false);
-    const OneRings rings(region);
+    const EliminationOrder order = elimination_order(region.half_edges);
     return scaled_to_locks(region,
-                           flatten_floating_border(
-                               region, rings, elimination_order(rings), mean_value_weights,
-                               border_polygon(region, rings, elimination_order(rings), free, rule)),
+                           flatten_floating_border(region, order, mean_value_weights,
+                                                   border_polygon(region, order, free, rule)),
                            {});
 }
 
