@@ -1,6 +1,6 @@
 #include "core/error.h"
 
-#include <cstdio>
+#include "core/text.h"
 
 namespace lastflat {
 
@@ -48,9 +48,8 @@ Error& Error::at_option(const std::vector<std::string>& path) {
 }
 
 std::string place(const Vec3& position) {
-    char text[96];
-    std::snprintf(text, sizeof text, "%.1f %.1f %.1f", position.x(), position.y(), position.z());
-    return text;
+    return fixed_text(position.x(), 1) + ' ' + fixed_text(position.y(), 1) + ' ' +
+           fixed_text(position.z(), 1);
 }
 
 }  // namespace lastflat

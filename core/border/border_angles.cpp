@@ -2,14 +2,13 @@
 // Based Mesh Parameterization in Shoe CAD System".
 #include "core/border/border_angles.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
-#include "core/numerics/polygon.h"
+#include "core/numerics/geometry.h"
 #include "core/numerics/spd_cholesky.h"
 
 namespace lastflat {
@@ -59,17 +58,14 @@ std::vector<Index> inner_vertices(const Region& region, const EliminationOrder& 
 SparseMatrix inner_laplacian(const Region& region, const Corners& corners,
                              const std::vector<Index>& inner) {
     const auto count = static_cast<Index>(inner.size());
-    std::vector<Index> places(region.positions.size(), -1);
-    for (Index k = 0; k < count; ++k) {
-        places[static_cast<std::size_t>(inner[static_cast<std::size_t>(k)])] = k;
-    }
+    const auto index = inverse(inner, region.positions.size());
     SparseMatrix A_ii(count, count);
     A_ii.reserve(static_cast<Eigen::Index>(4) * count);
     std::vector<Index> above;
     for (Index k = 0; k < count; ++k) {
         above.clear();
         for (const Index w : region.half_edges.ring(inner[static_cast<std::size_t>(k)])) {
-            const Index row = places[static_cast<std::size_t>(w)];
+            const Index row = index[at(w)];
             if (row >= 0 && row < k) above.push_back(row);
         }
         std::sort(above.begin(), above.end());
@@ -84,8 +80,8 @@ SparseMatrix inner_laplacian(const Region& region, const Corners& corners,
     for (std::size_t t = 0; t < region.triangles.size(); ++t) {
         for (std::size_t i = 0; i < 3; ++i) {
             const double weight = corners.half_cotangents[t][i];
-            const Index a = places[static_cast<std::size_t>(region.triangles[t][(i + 1) % 3])];
-            const Index b = places[static_cast<std::size_t>(region.triangles[t][(i + 2) % 3])];
+            const Index a = index[at(region.triangles[t][(i + 1) % 3])];
+            const Index b = index[at(region.triangles[t][(i + 2) % 3])];
             if (a >= 0) values[begin[a + 1] - 1] += weight;  // the diagonal comes last
             if (b >= 0) values[begin[b + 1] - 1] += weight;
             if (a < 0 || b < 0) continue;

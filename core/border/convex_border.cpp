@@ -56,7 +56,7 @@ std::vector<double> turning_angles(const Points2& polygon) {
     for (std::size_t i = 0; i < n; ++i) {
         const Vec2 in = polygon[i] - polygon[(i + n - 1) % n],
                    out = polygon[(i + 1) % n] - polygon[i];
-        turning.push_back(std::atan2(cross(in, out), in.dot(out)));
+        turning.push_back(signed_angle(in, out));
     }
     return turning;
 }
@@ -81,15 +81,12 @@ std::vector<std::size_t> sides(const std::vector<double>& turning) {
 /// Per corner, whether an edge inside the region has both ends on its side.
 std::vector<bool> chorded_sides(const Region& region, const std::vector<std::size_t>& side_of) {
     const std::size_t n = region.border.size();
-    std::vector<Index> place(region.positions.size(), -1);
-    for (std::size_t i = 0; i < n; ++i) {
-        place[static_cast<std::size_t>(region.border[i])] = static_cast<Index>(i);
-    }
+    const auto index = inverse(region.border, region.positions.size());
     std::vector<bool> chorded(n, false);
     for (const Triangle& t : region.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
-            const Index a = place[static_cast<std::size_t>(t[k])];
-            const Index b = place[static_cast<std::size_t>(t[(k + 1) % 3])];
+            const Index a = index[at(t[k])];
+            const Index b = index[at(t[(k + 1) % 3])];
             if (a < 0 || b < 0) continue;
             const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
             if (j == (i + 1) % n || i == (j + 1) % n) continue;

@@ -4,9 +4,9 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <cstdio>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace lastflat {
 
@@ -38,10 +38,10 @@ Points2 tweak_edges(const std::vector<double>& lengths, const std::vector<double
         const double s = locked[i] ? 0.0 : -lengths[i] * lengths[i] * d[i].dot(multiplier);
         const double length = lengths[i] + s;
         if (!(length > 0.0)) {
-            char change[64];
-            std::snprintf(change, sizeof change, "%.3g mm to %.3g mm", lengths[i], length);
             throw Error(ErrorCode::method_failed, "closing the border would take an edge from " +
-                                                      std::string(change) + ", on " + name_edge(i));
+                                                      general_text(lengths[i], 3) + " mm to " +
+                                                      general_text(length, 3) + " mm, on " +
+                                                      name_edge(i));
         }
         if (i + 1 < d.size()) points.push_back(points.back() + length * d[i]);
     }

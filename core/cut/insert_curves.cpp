@@ -1,6 +1,5 @@
 #include "core/cut/insert_curves.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "core/numerics/polygon.h"
+#include "core/numerics/geometry.h"
 #include "core/numerics/tolerances.h"
 
 namespace lastflat {
@@ -73,12 +72,11 @@ private:
 
     [[nodiscard]] FlatFace flat(Index face) const {
         const Triangle& t = old_corners(face);
-        const Vec3 a = surface_.position(t[0]), ab = surface_.position(t[1]) - a,
-                   ac = surface_.position(t[2]) - a;
-        const double length = ab.norm(), x = ab.dot(ac) / length;
-        const double y = ab.cross(ac).norm() / length;
-        const double longest = std::max({length, ac.norm(), (ac - ab).norm()});
-        return {t, {Vec2(0.0, 0.0), Vec2(length, 0.0), Vec2(x, y)}, snap_ * longest};
+        const Vec3 a = surface_.position(t[0]), b = surface_.position(t[1]),
+                   c = surface_.position(t[2]);
+        const auto [length, apex] = laid_flat(a, b, c);
+        const double longest = std::max({length, (c - a).norm(), (c - b).norm()});
+        return {t, {Vec2(0.0, 0.0), Vec2(length, 0.0), apex}, snap_ * longest};
     }
 
     /// The old faces around an old vertex, as far as they can be seen from their parts.
@@ -98,7 +96,7 @@ private:
         for (const Index face : faces_around(support.front())) {
             const Triangle& t = old_corners(face);
             if (std::all_of(support.begin(), support.end(),
-                            [&](Index v) { return std::find(t.begin(), t.end(), v) != t.end(); }))
+                            [&](Index v) { return contains(t, v); }))
                 return face;
         }
         return -1;
@@ -116,9 +114,7 @@ private:
         const auto support = other.support();
         if (support.size() == 3) return true;
         const auto own = place.support();
-        return std::all_of(own.begin(), own.end(), [&](Index v) {
-            return std::find(support.begin(), support.end(), v) != support.end();
-        });
+        return std::all_of(own.begin(), own.end(), [&](Index v) { return contains(support, v); });
     }
 
     /// The vertex at a place, made if there is none. A place on an old edge stays on it: the next
@@ -176,7 +172,7 @@ private:
             old_face_[static_cast<std::size_t>(face.idx())] = old;
             auto& list =
                 parts_.try_emplace(old, std::vector<FaceHandle>{FaceHandle(old)}).first->second;
-            if (std::find(list.begin(), list.end(), face) == list.end()) list.push_back(face);
+            if (!contains(list, face)) list.push_back(face);
             touched_.insert(face.idx());
         }
     }
@@ -293,7 +289,7 @@ private:
             for (std::size_t i = 0; i < 3; ++i) {
                 const Vec3 a = surface_.position(t[(i + 1) % 3]) - surface_.position(t[i]);
                 const Vec3 b = surface_.position(t[(i + 2) % 3]) - surface_.position(t[i]);
-                least = std::min(least, std::atan2(a.cross(b).norm(), a.dot(b)));
+                least = std::min(least, angle_between(a, b));
             }
         }
         return least;

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
-#include <numeric>
 
 #include "core/cut/edge_paths.h"
 #include "core/geodesic/trace_path.h"
 #include "core/numerics/disjoint_sets.h"
-#include "core/numerics/polygon.h"
 
 namespace lastflat {
 namespace {
@@ -19,11 +17,6 @@ constexpr double most_kept_curvature = std::numbers::pi / 2;
 /// A piece is long if its border reaches this many times as far along as across, and its hole near
 /// an end if it is off the middle by this share of the length.
 constexpr double long_from = 1.5, off_middle = 0.05;
-
-double length_of(const Region& region, const std::vector<Index>& loop) {
-    const auto lengths = loop_lengths(region, loop);
-    return std::accumulate(lengths.begin(), lengths.end(), 0.0);
-}
 
 /// The centre of a loop, every part by its length.
 Vec3 centre_of(const Region& region, const std::vector<Index>& loop) {
@@ -243,7 +236,8 @@ std::vector<HoleSeam> seams_of_next_hole(const Region& region, HoleRule rule, bo
     for (std::size_t k = 0; k < region.holes.size(); ++k) {
         const auto& hole = region.holes[k];
         if (is_slit(region, hole) || !(is_much(curvatures[k]) || rule == HoleRule::open)) continue;
-        if (longest == 0 || length_of(region, hole) > length_of(region, region.holes[longest - 1]))
+        if (longest == 0 ||
+            loop_length(region, hole) > loop_length(region, region.holes[longest - 1]))
             longest = k + 1;
     }
     if (longest == 0) return {};

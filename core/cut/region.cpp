@@ -1,9 +1,9 @@
 #include "core/cut/region.h"
 
-#include <Eigen/Geometry>
 #include <numbers>
+#include <numeric>
 
-#include "core/numerics/polygon.h"
+#include "core/numerics/geometry.h"
 
 namespace lastflat {
 
@@ -26,6 +26,11 @@ std::vector<double> loop_lengths(const Region& region, const std::vector<Index>&
     for (std::size_t i = 0; i < lengths.size(); ++i)
         lengths[i] = region.distance(loop[i], loop[(i + 1) % lengths.size()]);
     return lengths;
+}
+
+double loop_length(const Region& region, const std::vector<Index>& loop) {
+    const auto lengths = loop_lengths(region, loop);
+    return std::accumulate(lengths.begin(), lengths.end(), 0.0);
 }
 
 std::vector<double> border_lengths(const Region& region) {
@@ -55,20 +60,13 @@ std::vector<double> loop_turnings(const Region& region,
 
 Vec3 area_vector(const Region& region) {
     Vec3 sum = Vec3::Zero();
-    for (const Triangle& t : region.triangles) {
-        sum += 0.5 * (region.position(t[1]) - region.position(t[0]))
-                         .cross(region.position(t[2]) - region.position(t[0]));
-    }
+    for (const Triangle& t : region.triangles) sum += 0.5 * doubled_area_vector(region, t);
     return sum;
 }
 
 double surface_area(const Region& region) {
     double area = 0.0;
-    for (const Triangle& t : region.triangles) {
-        area += 0.5 * (region.position(t[1]) - region.position(t[0]))
-                          .cross(region.position(t[2]) - region.position(t[0]))
-                          .norm();
-    }
+    for (const Triangle& t : region.triangles) area += 0.5 * doubled_area_vector(region, t).norm();
     return area;
 }
 

@@ -41,6 +41,8 @@ struct Region : Triangulation {
 [[nodiscard]] std::vector<double> loop_lengths(const Region& region,
                                                const std::vector<Index>& loop);
 
+[[nodiscard]] double loop_length(const Region& region, const std::vector<Index>& loop);
+
 /// Of the outer loop.
 [[nodiscard]] std::vector<double> border_lengths(const Region& region);
 

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "core/export/glb_container.h"
-#include "core/export/number_text.h"
+#include "core/text.h"
 
 namespace lastflat {
 namespace {

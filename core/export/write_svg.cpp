@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "core/export/number_text.h"
+#include "core/text.h"
 
 namespace lastflat {
 namespace {

@@ -2,13 +2,12 @@
 // Shinagawa, Kohmura, Kunii, "Topology Matching", SIGGRAPH 2001.
 #include "core/fan/geodesic_fan.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/fan/geodesic_centre.h"
-#include "core/numerics/polygon.h"
+#include "core/numerics/geometry.h"
 
 namespace lastflat {
 namespace {
@@ -40,9 +39,7 @@ double angle_of_departure(const Region& region, const ConformalPlane& plane, Ind
 double mean_over_surface(const Region& region, const std::vector<double>& values) {
     double sum = 0.0, area = 0.0;
     for (const Triangle& t : region.triangles) {
-        const double doubled = (region.position(t[1]) - region.position(t[0]))
-                                   .cross(region.position(t[2]) - region.position(t[0]))
-                                   .norm();
+        const double doubled = doubled_area_vector(region, t).norm();
         area += doubled;
         for (const Index v : t) sum += doubled * values[static_cast<std::size_t>(v)] / 3.0;
     }

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/numerics/polygon.h"
+#include "core/numerics/geometry.h"
 #include "core/numerics/tolerances.h"
 
 namespace lastflat {
@@ -207,7 +207,7 @@ private:
             if (arrival.half_edge == opposite) {
                 const Vec2& apex = half_edges_.apex_position(opposite);
                 const Vec2 along_h = -apex, back = arrival.place - apex;
-                return begin + std::atan2(cross(along_h, back), along_h.dot(back));
+                return begin + signed_angle(along_h, back);
             }
             if (arrival.half_edge < 0 && half_edges_.to(h) == arrival.root) return begin;
             begin += half_edges_.angle(h);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/numerics/polygon.h"
+#include "core/numerics/geometry.h"
 #include "core/numerics/tolerances.h"
 
 namespace lastflat {

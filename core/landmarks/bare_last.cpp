@@ -1,10 +1,11 @@
 #include "core/landmarks/bare_last.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "core/numerics/geometry.h"
 
 namespace lastflat {
 namespace {
@@ -67,10 +68,8 @@ std::vector<BareFace> bare_faces(const SurfaceMesh& surface) {
     std::vector<BareFace> faces;
     for (const auto face : surface.mesh.faces()) {
         const Triangle t = corners_of(surface, face.idx());
-        const Vec3 a = surface.position(t[0]), b = surface.position(t[1]),
-                   c = surface.position(t[2]);
-        const Vec3 normal = (b - a).cross(c - a);
-        faces.push_back({(a + b + c) / 3.0, normal.normalized(), 0.5 * normal.norm()});
+        const Vec3 normal = doubled_area_vector(surface, t);
+        faces.push_back({centroid(surface, t), normal.normalized(), 0.5 * normal.norm()});
     }
     return faces;
 }

@@ -14,14 +14,20 @@ double scale_of(const std::vector<BareFace>& faces) {
     return std::sqrt(area / 70'000.0);
 }
 
-/// The bend of the surface over an edge, where it is convex; radians.
+/// The bend of the surface over an edge; radians.
+double bend(const SurfaceMesh& surface, const std::vector<BareFace>& faces,
+            OpenMesh::HalfedgeHandle h) {
+    const BareFace& a = faces[at(surface.mesh.face_handle(h).idx())];
+    const BareFace& b = faces[at(surface.mesh.opposite_face_handle(h).idx())];
+    return std::acos(std::clamp(a.normal.dot(b.normal), -1.0, 1.0));
+}
+
+/// The same where it is convex; else 0.
 double ridge(const SurfaceMesh& surface, const std::vector<BareFace>& faces,
              OpenMesh::HalfedgeHandle h) {
-    const BareFace& a = faces[static_cast<std::size_t>(surface.mesh.face_handle(h).idx())];
-    const BareFace& b = faces[static_cast<std::size_t>(
-        surface.mesh.face_handle(surface.mesh.opposite_halfedge_handle(h)).idx())];
-    if (a.normal.dot(b.centre - a.centre) > 0.0) return 0.0;
-    return std::acos(std::clamp(a.normal.dot(b.normal), -1.0, 1.0));
+    const BareFace& a = faces[at(surface.mesh.face_handle(h).idx())];
+    const BareFace& b = faces[at(surface.mesh.opposite_face_handle(h).idx())];
+    return a.normal.dot(b.centre - a.centre) > 0.0 ? 0.0 : bend(surface, faces, h);
 }
 
 /// Per edge of a line, whether it is sharp.
@@ -32,10 +38,7 @@ std::vector<bool> sharp_edges(const SurfaceMesh& surface, const std::vector<Bare
     for (std::size_t i = 1; i < line.size(); ++i) {
         const auto h = surface.mesh.find_halfedge(OpenMesh::VertexHandle(line[i - 1]),
                                                   OpenMesh::VertexHandle(line[i]));
-        const BareFace& a = faces[static_cast<std::size_t>(surface.mesh.face_handle(h).idx())];
-        const BareFace& b = faces[static_cast<std::size_t>(
-            surface.mesh.face_handle(surface.mesh.opposite_halfedge_handle(h)).idx())];
-        sharp.push_back(std::acos(std::clamp(a.normal.dot(b.normal), -1.0, 1.0)) > least);
+        sharp.push_back(bend(surface, faces, h) > least);
     }
     return sharp;
 }

@@ -153,8 +153,7 @@ void check_surface(const SurfaceMesh& surface) {
     }
     const std::vector<bool> all(surface.mesh.n_faces(), true);
     const auto piece = piece_of(surface, all, 0);
-    if (std::find(piece.begin(), piece.end(), false) != piece.end())
-        fail_search("the model is more than one piece");
+    if (contains(piece, false)) fail_search("the model is more than one piece");
 }
 
 void find_sides(const SurfaceMesh& surface, const std::vector<bool>& upper, const Points3& line,

@@ -1,6 +1,5 @@
 #include "core/landmarks/sole_and_top.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 #include <optional>
 
 #include "core/landmarks/min_cut.h"
+#include "core/numerics/geometry.h"
 
 namespace lastflat {
 namespace {
@@ -21,8 +21,7 @@ std::vector<GraphEdge> graph_of(const SurfaceMesh& surface, const std::vector<Ba
         const Index b = surface.mesh.face_handle(surface.mesh.opposite_halfedge_handle(h)).idx();
         const BareFace &left = faces[static_cast<std::size_t>(a)],
                        &right = faces[static_cast<std::size_t>(b)];
-        const double bend =
-            std::atan2(left.normal.cross(right.normal).norm(), left.normal.dot(right.normal));
+        const double bend = angle_between(left.normal, right.normal);
         const bool convex = left.normal.dot(right.centre - left.centre) < 0.0;
         const double ease = convex ? std::exp(-bend * bend / (sharp * sharp)) : 1.0;
         edges.push_back({a, b, surface.mesh.calc_edge_length(edge) * (floor + ease)});

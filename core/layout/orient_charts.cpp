@@ -1,11 +1,11 @@
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "core/cut/border_segments.h"
 #include "core/layout/base_line.h"
 #include "core/layout/sheet.h"
+#include "core/numerics/geometry.h"
 #include "core/request.h"
 
 namespace lastflat {
@@ -56,9 +56,7 @@ std::vector<Patch> patches(const Region& region, const Chart& chart) {
             patch.centre += region.position(v) / 3.0;
             patch.flat_centre += chart.uv[static_cast<std::size_t>(v)] / 3.0;
         }
-        patch.area = 0.5 * (region.position(t[1]) - region.position(t[0]))
-                               .cross(region.position(t[2]) - region.position(t[0]))
-                               .norm();
+        patch.area = 0.5 * doubled_area_vector(region, t).norm();
         result.push_back(patch);
     }
     return result;
@@ -103,11 +101,8 @@ Vec3 long_axis(const std::vector<Region>& regions) {
     Vec3 mean = Vec3::Zero();
     const auto for_triangles = [&](auto visit) {
         for (const Region& region : regions) {
-            for (const Triangle& t : region.triangles) {
-                const Vec3 &a = region.position(t[0]), &b = region.position(t[1]),
-                           &c = region.position(t[2]);
-                visit(Vec3((a + b + c) / 3.0), 0.5 * (b - a).cross(c - a).norm());
-            }
+            for (const Triangle& t : region.triangles)
+                visit(centroid(region, t), 0.5 * doubled_area_vector(region, t).norm());
         }
     };
     for_triangles([&](const Vec3& centre, double a) {
@@ -146,7 +141,7 @@ void orient_charts(const std::vector<Region>& regions, const std::vector<Index>&
         const Vec2 along = length > 0.0 ? Vec2(base / length) : Vec2::UnitX();
         Vec2 low(HUGE_VAL, HUGE_VAL);
         for (Vec2& p : uv) {
-            p = {along.dot(p), along.x() * p.y() - along.y() * p.x()};
+            p = {along.dot(p), cross(along, p)};
             low = low.cwiseMin(p);
         }
         Vec2 origin = centres[r] < 0 ? low : uv[static_cast<std::size_t>(centres[r])];

@@ -1,9 +1,8 @@
-#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
 #include "core/layout/sheet.h"
-#include "core/numerics/polygon.h"
+#include "core/numerics/geometry.h"
 
 namespace lastflat {
 namespace {

@@ -48,7 +48,7 @@ void guard_extensions(const Json& document) {
         constexpr std::array<std::string_view, 5> known{
             "KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
             "KHR_materials_unlit", "KHR_texture_transform"};
-        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        if (contains(known, name)) continue;
         refuse(ErrorCode::unsupported_model,
                "requires the extension " + name.substr(0, 80) +
                    ", which this version does not read; export without it");

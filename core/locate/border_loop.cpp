@@ -1,11 +1,11 @@
 #include "core/locate/border_loop.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/locate/curve_error.h"
+#include "core/numerics/geometry.h"
 
 namespace lastflat {
 namespace {
@@ -33,9 +33,9 @@ HalfedgeHandle nearest_side(const SurfaceMesh& surface, const std::string& curve
     for (const auto side : surface.mesh.halfedges()) {
         if (!surface.mesh.is_boundary(side)) continue;
         const Vec3 from = surface.position(surface.mesh.from_vertex_handle(side).idx());
-        const Vec3 along = surface.position(surface.mesh.to_vertex_handle(side).idx()) - from;
-        const double share = std::clamp(along.dot(position - from) / along.squaredNorm(), 0.0, 1.0);
-        const double distance = (from + share * along - position).norm();
+        const Vec3 to = surface.position(surface.mesh.to_vertex_handle(side).idx());
+        const Vec3 nearest = from + nearest_share(from, to, position) * (to - from);
+        const double distance = (nearest - position).norm();
         if (distance >= least) continue;
         least = distance;
         best = side;

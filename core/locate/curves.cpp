@@ -1,7 +1,6 @@
 #include "core/locate/curves.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <set>
 
@@ -10,16 +9,12 @@
 #include "core/locate/follow_surface.h"
 #include "core/locate/group_line.h"
 #include "core/locate/shortest_paths.h"
+#include "core/numerics/geometry.h"
 #include "core/numerics/tolerances.h"
+#include "core/text.h"
 
 namespace lastflat {
 namespace {
-
-std::string millimetres(double length) {
-    std::array<char, 40> text{};
-    std::snprintf(text.data(), text.size(), "%.3f mm", length);
-    return text.data();
-}
 
 Index located_vertex(const SurfaceMesh& surface, const std::string& curve, std::size_t item,
                      Index id) {
@@ -47,8 +42,8 @@ void check_edge(const SurfaceMesh& surface, const std::string& curve, std::size_
     fail_curve(curve, "vertices", item,
                "vertices " + std::to_string(ids[item - 1]) + " and " + std::to_string(ids[item]) +
                    " share no edge; they are " +
-                   millimetres((surface.position(a) - surface.position(b)).norm()) + " apart, at " +
-                   place(surface.position(a)),
+                   fixed_text((surface.position(a) - surface.position(b)).norm(), 3) +
+                   " mm apart, at " + place(surface.position(a)),
                surface.position(a));
 }
 
@@ -201,9 +196,9 @@ private:
         const auto nearest = search().nearest(position);
         const double most = drawn_reach * search().size();
         if (nearest.distance > most)
-            fail("the point is " + millimetres(nearest.distance) +
-                 " away from the surface (at most " + millimetres(most) +
-                 "); are the units right?");
+            fail("the point is " + fixed_text(nearest.distance, 3) +
+                 " mm away from the surface (at most " + fixed_text(most, 3) +
+                 " mm); are the units right?");
         return nearest.place;
     }
 
@@ -212,10 +207,10 @@ private:
         SurfacePlace best = end;
         double least = drawn_end_reach * search().size();
         const auto consider = [&](const SurfacePlace& a, const SurfacePlace& b) {
-            const Vec3 from = position_of(surface_, a), along = position_of(surface_, b) - from;
-            if (along.squaredNorm() == 0.0) return;
-            const double share = std::clamp(along.dot(at - from) / along.squaredNorm(), 0.0, 1.0);
-            const double distance = (from + share * along - at).norm();
+            const Vec3 from = position_of(surface_, a), to = position_of(surface_, b);
+            if (from == to) return;
+            const double share = nearest_share(from, to, at);
+            const double distance = (from + share * (to - from) - at).norm();
             if (distance >= least) return;
             least = distance;
             best = share == 0.0 ? a : share == 1.0 ? b : between(a, b, share);

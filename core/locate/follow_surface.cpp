@@ -1,19 +1,16 @@
 #include "core/locate/follow_surface.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
+
+#include "core/numerics/geometry.h"
 
 namespace lastflat {
 namespace {
 
 Vec3 normal_at(const SurfaceMesh& surface, const SurfacePlace& place) {
     Vec3 sum = Vec3::Zero();
-    for (const Index face : faces_at(surface, place)) {
-        const Triangle t = corners_of(surface, face);
-        sum += (surface.position(t[1]) - surface.position(t[0]))
-                   .cross(surface.position(t[2]) - surface.position(t[0]))
-                   .normalized();
-    }
+    for (const Index face : faces_at(surface, place))
+        sum += doubled_area_vector(surface, corners_of(surface, face)).normalized();
     return sum;
 }
 
@@ -41,11 +38,8 @@ std::optional<SurfacePlace> meeting(const SurfaceMesh& surface, const Section& s
 
 /// Whether an edge leads away from a place: one that the place itself is on does not.
 bool leads_away(const std::vector<Index>& support, Index a, Index b) {
-    const auto supports = [&](Index v) {
-        return std::find(support.begin(), support.end(), v) != support.end();
-    };
-    if (support.size() == 1) return !supports(a) && !supports(b);
-    return support.size() == 3 || !supports(a) || !supports(b);
+    if (support.size() == 1) return !contains(support, a) && !contains(support, b);
+    return support.size() == 3 || !contains(support, a) || !contains(support, b);
 }
 
 /// Where the section leaves the faces at a place; the way that leads furthest along.
@@ -72,7 +66,7 @@ std::optional<SurfacePlace> next_place(const SurfaceMesh& surface, const Section
 bool share_a_face(const SurfaceMesh& surface, const SurfacePlace& a, const SurfacePlace& b) {
     const auto faces = faces_at(surface, a);
     for (const Index face : faces_at(surface, b)) {
-        if (std::find(faces.begin(), faces.end(), face) != faces.end()) return true;
+        if (contains(faces, face)) return true;
     }
     return false;
 }

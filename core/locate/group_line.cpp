@@ -22,9 +22,9 @@ std::vector<bool> labels_of(const SurfaceMesh& surface, const std::string& curve
     const std::string& group = border.groups[item];
     std::vector<bool> has;
     for (const auto& names : surface.label_sets) {
-        has.push_back(std::find(names.begin(), names.end(), group) != names.end());
+        has.push_back(contains(names, group));
     }
-    if (std::find(has.begin(), has.end(), true) == has.end()) {
+    if (!contains(has, true)) {
         throw Error(ErrorCode::group_not_found,
                     "curve '" + curve + "': the model has no group '" + group + "'")
             .at_option({"curves", curve, "border_of", "groups", std::to_string(item)});

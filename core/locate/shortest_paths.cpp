@@ -75,14 +75,13 @@ private:
         std::vector<Index> rows;
         for (const Index v : t) {
             for (const Index row : places_[static_cast<std::size_t>(v)].support()) {
-                if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(row);
+                if (!contains(rows, row)) rows.push_back(row);
             }
         }
         const auto support = place.support();
         const bool holds =
-            rows.size() == 3 && std::all_of(support.begin(), support.end(), [&](Index v) {
-                return std::find(rows.begin(), rows.end(), v) != rows.end();
-            });
+            rows.size() == 3 &&
+            std::all_of(support.begin(), support.end(), [&](Index v) { return contains(rows, v); });
         return holds ? rows : std::vector<Index>{};
     }
 

@@ -7,7 +7,7 @@ namespace lastflat {
 SurfacePlace between(const SurfacePlace& a, const SurfacePlace& b, double share) {
     std::vector<Index> vertices = a.support();
     for (const Index v : b.support()) {
-        if (std::find(vertices.begin(), vertices.end(), v) == vertices.end()) vertices.push_back(v);
+        if (!contains(vertices, v)) vertices.push_back(v);
     }
     SurfacePlace place;
     place.corners.fill(vertices.front());
@@ -40,9 +40,8 @@ std::vector<Index> faces_at(const SurfaceMesh& surface, const SurfacePlace& plac
     std::vector<Index> faces;
     for (const auto face : surface.mesh.vf_range(OpenMesh::VertexHandle(support.front()))) {
         const Triangle corners = corners_of(surface, face.idx());
-        const bool holds = std::all_of(support.begin(), support.end(), [&](Index v) {
-            return std::find(corners.begin(), corners.end(), v) != corners.end();
-        });
+        const bool holds = std::all_of(support.begin(), support.end(),
+                                       [&](Index v) { return contains(corners, v); });
         if (holds) faces.push_back(face.idx());
     }
     return faces;

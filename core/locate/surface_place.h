@@ -40,7 +40,7 @@ struct SurfacePlace {
         std::vector<Index> vertices;
         for (std::size_t i = 0; i < 3; ++i) {
             const Index v = corners[i];
-            const bool known = std::find(vertices.begin(), vertices.end(), v) != vertices.end();
+            const bool known = contains(vertices, v);
             if (!known && weight_of(v) != 0.0) vertices.push_back(v);
         }
         return vertices;

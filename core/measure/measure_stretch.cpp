@@ -3,6 +3,7 @@
 
 #include "core/measure/report.h"
 #include "core/measure/stretch.h"
+#include "core/numerics/geometry.h"
 
 namespace lastflat {
 namespace {
@@ -50,8 +51,7 @@ std::vector<WorstPlace> worst_places(const Region& region, std::vector<Leather> 
     for (const Leather& l : leather) {
         if (places.size() == most_places || std::abs(l.worst()) < noticed_percent) break;
         const Triangle& t = region.triangles[static_cast<std::size_t>(l.triangle)];
-        const Vec3 middle =
-            (region.position(t[0]) + region.position(t[1]) + region.position(t[2])) / 3.0;
+        const Vec3 middle = centroid(region, t);
         const bool known = std::any_of(places.begin(), places.end(), [&](const WorstPlace& p) {
             return (p.position - middle).norm() < apart * std::sqrt(total);
         });

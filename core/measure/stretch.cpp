@@ -1,10 +1,9 @@
 // Based on: Sander, Snyder, Gortler, Hoppe, "Texture Mapping Progressive Meshes", SIGGRAPH 2001.
 #include "core/measure/stretch.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
 
-#include "core/numerics/polygon.h"
+#include "core/numerics/geometry.h"
 
 namespace lastflat {
 
@@ -20,7 +19,7 @@ Stretch stretch_of(const Region& region, const Points2& uv, const Triangle& t) {
         (q1 * (p3.x() - p2.x()) + q2 * (p1.x() - p3.x()) + q3 * (p2.x() - p1.x())) / doubled;
     const double a = S_s.dot(S_s), b = S_s.dot(S_t), c = S_t.dot(S_t);
     const double root = std::sqrt((a - c) * (a - c) + 4.0 * b * b);
-    const double area_3d = 0.5 * (q2 - q1).cross(q3 - q1).norm();
+    const double area_3d = 0.5 * doubled_area_vector(region, t).norm();
     const double G = std::sqrt(0.5 * (a + c + root));
     // G g is the ratio of the areas; subtracting root instead would cancel.
     return {G, 2.0 * area_3d / std::abs(doubled) / G, area_3d, 0.5 * doubled};

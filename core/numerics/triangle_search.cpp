@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numerics/geometry.h"
+
 namespace lastflat {
 namespace {
 
@@ -13,14 +15,6 @@ std::uint64_t spread(double share) {
     std::uint64_t result = 0;
     for (int i = 0; i < 10; ++i) result |= (bits >> i & 1U) << (3 * i);
     return result;
-}
-
-/// Weights on the segment from a to b.
-std::pair<double, double> on_segment(const Vec3& a, const Vec3& b, const Vec3& point) {
-    const Vec3 along = b - a;
-    const double square = along.squaredNorm();
-    const double share = square > 0.0 ? std::clamp(along.dot(point - a) / square, 0.0, 1.0) : 0.0;
-    return {1.0 - share, share};
 }
 
 }  // namespace
@@ -38,7 +32,7 @@ Vec3 nearest_weights(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& po
     const std::array<const Vec3*, 3> corners{&a, &b, &c};
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3;
-        const auto [from, to] = on_segment(*corners[i], *corners[j], point);
+        const double to = nearest_share(*corners[i], *corners[j], point), from = 1.0 - to;
         const double distance = (from * *corners[i] + to * *corners[j] - point).squaredNorm();
         if (distance >= least) continue;
         least = distance;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -23,7 +24,19 @@ inline std::size_t at(Index i) {
     return static_cast<std::size_t>(i);
 }
 
-/// Triangles with their corners' places.
+/// For each of 0 .. count - 1, where it stands in the list; -1: nowhere.
+inline std::vector<Index> inverse(const std::vector<Index>& list, std::size_t count) {
+    std::vector<Index> index(count, -1);
+    for (std::size_t i = 0; i < list.size(); ++i) index[at(list[i])] = static_cast<Index>(i);
+    return index;
+}
+
+template <class Range, class Item>
+[[nodiscard]] bool contains(const Range& range, const Item& item) {
+    return std::find(std::begin(range), std::end(range), item) != std::end(range);
+}
+
+/// Triangles with their corners' positions.
 struct Triangulation {
     Points3 positions;                ///< mm
     std::vector<Triangle> triangles;  ///< counter-clockwise seen from outside

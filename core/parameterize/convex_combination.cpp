@@ -20,11 +20,8 @@ struct MeanSystem {
 
 MeanSystem mean_system(const WeightRows& rows, const Points2& fixed,
                        const std::vector<Index>& unknown) {
-    std::vector<Index> place(rows.size(), -1);
+    const auto row_of = inverse(unknown, rows.size());
     const auto count = static_cast<Index>(unknown.size());
-    for (Index row = 0; row < count; ++row) {
-        place[static_cast<std::size_t>(unknown[static_cast<std::size_t>(row)])] = row;
-    }
     MeanSystem system{{count, count}, Eigen::MatrixXd::Zero(count, 2)};
     std::size_t entries = 0;
     for (const auto& row : rows) entries += row.size() + 1;
@@ -38,8 +35,8 @@ MeanSystem mean_system(const WeightRows& rows, const Points2& fixed,
             const auto j = static_cast<std::size_t>(neighbour);
             sum += weight;
             system.dominant = system.dominant && weight >= 0.0;
-            if (place[j] >= 0) {
-                line.emplace_back(place[j], -weight);
+            if (row_of[j] >= 0) {
+                line.emplace_back(row_of[j], -weight);
             } else {
                 system.b.row(row) += weight * fixed[j].transpose();
             }

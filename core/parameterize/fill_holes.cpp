@@ -1,7 +1,8 @@
 #include "core/parameterize/fill_holes.h"
 
-#include <Eigen/Geometry>
 #include <numbers>
+
+#include "core/numerics/geometry.h"
 
 namespace lastflat {
 namespace {
@@ -13,8 +14,7 @@ constexpr double raised = 0.1;
 std::vector<Vec3> vertex_normals(const Region& region) {
     std::vector<Vec3> normals(region.positions.size(), Vec3::Zero());
     for (const Triangle& t : region.triangles) {
-        const Vec3& a = region.position(t[0]);
-        const Vec3 normal = (region.position(t[1]) - a).cross(region.position(t[2]) - a);
+        const Vec3 normal = doubled_area_vector(region, t);
         for (const Index v : t) normals[static_cast<std::size_t>(v)] += normal;
     }
     return normals;
@@ -33,9 +33,7 @@ Region with_holes_filled(const Region& region) {
             centre += region.position(v) / static_cast<double>(hole.size());
             normal += normals[static_cast<std::size_t>(v)];
         }
-        double length = 0.0;
-        for (const double edge : loop_lengths(region, hole)) length += edge;
-        const double height = raised * length / (2.0 * std::numbers::pi);
+        const double height = raised * loop_length(region, hole) / (2.0 * std::numbers::pi);
         const auto apex = static_cast<Index>(filled.positions.size());
         filled.positions.emplace_back(centre + height * normal.normalized());
         filled.source_vertices.push_back(-1);

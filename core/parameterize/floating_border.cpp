@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "core/border/convex_border.h"
-#include "core/numerics/polygon.h"
+#include "core/numerics/geometry.h"
 #include "core/parameterize/convex_combination.h"
 
 namespace lastflat {

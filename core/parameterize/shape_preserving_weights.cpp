@@ -4,7 +4,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "core/numerics/polygon.h"
+#include "core/numerics/geometry.h"
 #include "core/parameterize/weights.h"
 
 namespace lastflat {

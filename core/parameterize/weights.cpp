@@ -1,7 +1,8 @@
 #include "core/parameterize/weights.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
+
+#include "core/numerics/geometry.h"
 
 namespace lastflat {
 
@@ -18,7 +19,7 @@ Star surface_star(const Region& region, Index vertex) {
     for (std::size_t j = 0; j < n; ++j) {
         const Vec3 next = j + 1 < n ? Vec3(region.position(ring[j + 1]) - centre) : first;
         star.distances[j] = spoke.norm();
-        star.angles[j] = std::atan2(spoke.cross(next).norm(), spoke.dot(next));
+        star.angles[j] = angle_between(spoke, next);
         spoke = next;
     }
     return star;

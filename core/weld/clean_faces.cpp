@@ -1,12 +1,12 @@
 #include "core/weld/clean_faces.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "core/numerics/disjoint_sets.h"
+#include "core/numerics/geometry.h"
 #include "core/numerics/tolerances.h"
 #include "core/weld/sides.h"
 
@@ -50,9 +50,8 @@ std::size_t longest_side(const Faces& faces, const Triangle& t) {
 /// As `check_shapes` has it, with room to spare.
 bool is_flat(const Faces& faces, const Triangle& t) {
     const double longest = edge_length(faces, t, longest_side(faces, t));
-    const Vec3 normal = (faces.position(t[1]) - faces.position(t[0]))
-                            .cross(faces.position(t[2]) - faces.position(t[0]));
-    return normal.norm() <= 2.0 * tolerance::degenerate_height * longest * longest;
+    return doubled_area_vector(faces, t).norm() <=
+           2.0 * tolerance::degenerate_height * longest * longest;
 }
 
 /// Joins the ends of nearly zero edges of flat triangles. Whether there were any.
@@ -203,11 +202,8 @@ void drop_strays(Faces& faces, std::vector<Repair>& repairs) {
         pieces.join(t[0], t[2]);
     }
     std::map<Index, double> areas;
-    for (const Triangle& t : faces.triangles) {
-        areas[pieces.find(t[0])] += (faces.position(t[1]) - faces.position(t[0]))
-                                        .cross(faces.position(t[2]) - faces.position(t[0]))
-                                        .norm();
-    }
+    for (const Triangle& t : faces.triangles)
+        areas[pieces.find(t[0])] += doubled_area_vector(faces, t).norm();
     if (areas.size() < 2) return;
     double largest = 0.0;
     for (const auto& [piece, area] : areas) largest = std::max(largest, area);

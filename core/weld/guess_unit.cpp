@@ -2,7 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <cstdio>
+
+#include "core/text.h"
 
 namespace lastflat {
 namespace {
@@ -14,12 +15,6 @@ double length_of(const RawMesh& raw) {
         for (const Index v : triangle) box.extend(raw.positions[static_cast<std::size_t>(v)]);
     }
     return box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
-}
-
-std::string number(double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.4g", value);
-    return text.data();
 }
 
 }  // namespace
@@ -35,15 +30,16 @@ UnitGuess guess_unit(const RawMesh& raw) {
         {{"mm", 1.0}, {"cm", 10.0}, {"m", 1000.0}, {"in", 25.4}}};
     for (const auto& [name, unit] : units) {
         if (!is_last(unit)) continue;
-        return {unit, Warning{"unit_assumed",
-                              "the request gives no units; the model is " + number(length) +
-                                  " units long, so they were taken as " + name + " (" +
-                                  number(unit * length) + " mm). Send \"units\" to be sure",
-                              std::nullopt}};
+        return {unit,
+                Warning{"unit_assumed",
+                        "the request gives no units; the model is " + general_text(length, 4) +
+                            " units long, so they were taken as " + name + " (" +
+                            general_text(unit * length, 4) + " mm). Send \"units\" to be sure",
+                        std::nullopt}};
     }
     return {raw.default_unit_mm,
             Warning{"size_unusual",
-                    "the model is " + number(raw.default_unit_mm * length) +
+                    "the model is " + general_text(raw.default_unit_mm * length, 4) +
                         " mm long if its units are those of its format; a last is 150 to 350 mm "
                         "long, and no unit makes it so. Send \"units\" to be sure",
                     std::nullopt}};

@@ -1,14 +1,14 @@
 #include "core/weld/stitch.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <optional>
 
 #include "core/numerics/box_tree.h"
+#include "core/numerics/geometry.h"
+#include "core/text.h"
 #include "core/weld/borders.h"
 #include "core/weld/join_borders.h"
 #include "core/weld/merge_vertices.h"
@@ -37,7 +37,8 @@ public:
             const auto edge = static_cast<std::size_t>(i);
             const Vec3& a = faces_.position(loop_.vertex(edge));
             const Vec3 way = faces_.position(loop_.vertex(edge + 1)) - a;
-            const double share = std::clamp(way.dot(position - a) / way.squaredNorm(), 0.0, 1.0);
+            const double share =
+                nearest_share(a, faces_.position(loop_.vertex(edge + 1)), position);
             const Vec3 foot = a + share * way;
             if ((foot - position).norm() <= least) {
                 least = (foot - position).norm();
@@ -314,13 +315,11 @@ void stitch(Faces& faces, double tolerance_mm, std::vector<Repair>& repairs) {
         if (!zip_one_pair(faces, tolerance_mm, furthest, joined, inserted)) break;
     }
     furthest = std::max(furthest, join_borders(faces, tolerance_mm, joined, inserted));
-    std::array<char, 80> moved{};
-    std::snprintf(moved.data(), moved.size(), "; nothing was moved by more than %.3f mm", furthest);
+    const std::string moved = "; nothing was moved by more than " + fixed_text(furthest, 3) + " mm";
     same.write(repairs, "borders_welded", "border vertices of the same place were joined");
-    joined.write(repairs, "gaps_closed",
-                 std::string("pairs of vertices across gaps were joined") + moved.data());
+    joined.write(repairs, "gaps_closed", "pairs of vertices across gaps were joined" + moved);
     inserted.write(repairs, "t_junctions_closed",
-                   std::string("vertices were put into edges across gaps") + moved.data());
+                   "vertices were put into edges across gaps" + moved);
 }
 
 }  // namespace lastflat

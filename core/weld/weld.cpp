@@ -36,7 +36,7 @@ std::vector<bool> selected_labels(const RawMesh& raw, const std::vector<std::str
         bool found = false;
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             const auto& labels = raw.label_sets[i];
-            if (std::find(labels.begin(), labels.end(), groups[g]) == labels.end()) continue;
+            if (!contains(labels, groups[g])) continue;
             wanted[i] = found = true;
         }
         if (!found) {

@@ -19,7 +19,7 @@ namespace {
 
 using test::cut;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::string ring() {
     return test::sheet_obj(6, 6, test::flat,
