@@ -10,6 +10,7 @@
 
 #include "core/numerics/geometry.h"
 #include "core/numerics/spd_cholesky.h"
+#include "core/numerics/tolerances.h"
 
 namespace lastflat {
 namespace {
@@ -192,8 +193,7 @@ BorderAngles border_angles(const Region& region, const EliminationOrder& order, 
     close_turning(region, result.turning);
     for (std::size_t i = 0; i < result.corners.size(); ++i) {
         auto& corners = result.corners[i];
-        constexpr double least = 1e-3;  // where the border turns by more than pi
-        const double scale = std::max(pi - result.turning[i], least) /
+        const double scale = std::max(pi - result.turning[i], tolerance::least_border_angle) /
                              std::accumulate(corners.begin(), corners.end(), 0.0);
         for (double& corner : corners) corner *= scale;
     }

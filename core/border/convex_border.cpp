@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
 #include "core/error.h"
 #include "core/numerics/polygon.h"
+#include "core/numerics/tolerances.h"
 
 namespace lastflat {
 namespace {
@@ -62,8 +64,7 @@ std::vector<double> turning_angles(const Points2& polygon) {
 }
 
 bool is_corner(double turning) {
-    constexpr double round_off = 1e-9;
-    return turning > round_off;
+    return turning > tolerance::corner;
 }
 
 /// Per vertex the corner at which the side that leaves it begins.
@@ -119,7 +120,7 @@ Points2 square_border(const Region& region) {
     if (n < 4) throw Error(ErrorCode::method_failed, "a square border needs four border vertices");
     const auto arc = arc_lengths(border_lengths(region));
     std::size_t start = 0;
-    double sharpest = 1e300;
+    double sharpest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < n; ++i) {
         const double sum = sharpness(region, quarter_points(arc, i));
         if (sum < sharpest) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/numerics/tolerances.h"
 #include "core/text.h"
 
 namespace lastflat {
@@ -25,8 +26,8 @@ Points2 tweak_edges(const std::vector<double>& lengths, const std::vector<double
         c += lengths[i] * d[i];
         if (!locked[i]) M += lengths[i] * lengths[i] * d[i] * d[i].transpose();
     }
-    constexpr double parallel = 1e-12;  // of det M against its bound, (trace / 2)^2
-    if (!(M.determinant() > parallel * 0.25 * M.trace() * M.trace())) {
+    // The bound of the determinant is (trace / 2)^2.
+    if (!(M.determinant() > tolerance::parallel * 0.25 * M.trace() * M.trace())) {
         throw Error(ErrorCode::method_failed,
                     "the border cannot be closed: all its edges are locked, or all free ones are "
                     "parallel; unlock " +

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/numerics/tolerances.h"
 
 namespace lastflat {
 namespace {
@@ -26,13 +27,13 @@ double spanned_area(const Region& region, const std::vector<Index>& loop) {
 }
 
 std::size_t outer_loop(const Region& region, const std::vector<std::vector<Index>>& loops) {
-    constexpr double alike = 0.01;
     const auto turnings = loop_turnings(region, loops);
     const double most = *std::max_element(turnings.begin(), turnings.end());
     std::size_t best = 0;
     double largest = -1.0;
     for (std::size_t k = 0; k < loops.size(); ++k) {
-        const double area = turnings[k] < most - alike ? -1.0 : spanned_area(region, loops[k]);
+        const double area =
+            turnings[k] < most - tolerance::alike_turning ? -1.0 : spanned_area(region, loops[k]);
         if (area <= largest) continue;
         largest = area;
         best = k;

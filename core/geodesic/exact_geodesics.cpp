@@ -170,7 +170,7 @@ private:
     /// Lets paths go on from a vertex, in the directions in which they make no corner that a
     /// shorter path could cut: at least pi from where they came on either side.
     void open(Index vertex) {
-        constexpr double margin = 1e-9;  // radians; a little more light does no harm
+        constexpr double margin = tolerance::geodesic_margin;
         const double offset = result_.distance[at(vertex)];
         const bool whole = vertex == result_.source_vertex;
         const bool border = half_edges_.on_border(vertex);

@@ -21,10 +21,9 @@ struct Line {
 
 /// Whether the line's root is the third corner of the triangle it has just entered.
 bool ends_at_apex(const Unfolding& unfolding, const Line& line, Index root) {
-    constexpr double round_off = 1e-6;  // of the triangle's size; other corners are further away
     return unfolding.apex(line.half_edge) == root &&
            (unfolding.apex_position(line.half_edge) - line.root).norm() <
-               round_off * unfolding.length(line.half_edge);
+               tolerance::geodesic_corner * unfolding.length(line.half_edge);
 }
 
 /// The edge through which the line leaves the triangle that it entered, seen from the next one.

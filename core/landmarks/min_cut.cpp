@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/numerics/tolerances.h"
+
 namespace lastflat {
 namespace {
 
@@ -21,7 +23,7 @@ public:
             if (nodes[n] == Side2::first) add(source_, n, total, 0.0);
             if (nodes[n] == Side2::second) add(n, sink_, total, 0.0);
         }
-        round_off_ = 1e-12 * total;
+        round_off_ = tolerance::used_up * total;
     }
 
     /// Per node, whether it is still reached from the first side.

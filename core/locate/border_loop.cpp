@@ -6,6 +6,7 @@
 
 #include "core/locate/curve_error.h"
 #include "core/numerics/geometry.h"
+#include "core/numerics/tolerances.h"
 
 namespace lastflat {
 namespace {
@@ -42,7 +43,7 @@ HalfedgeHandle nearest_side(const SurfaceMesh& surface, const std::string& curve
     }
     if (!best.is_valid())
         fail_border_at(curve, "the surface is closed and has no border", position);
-    if (least > border_reach * size_of(surface))
+    if (least > tolerance::border_reach * size_of(surface))
         fail_border_at(curve,
                        "the place is " + std::to_string(std::lround(least)) +
                            " mm away from the nearest border; are the units right?",

@@ -5,10 +5,6 @@
 
 namespace lastflat {
 
-/// How far a place may be from the loop that it means, as a share of the surface's size: about
-/// 30 mm on a last, so that the middle of a hole means the hole.
-inline constexpr double border_reach = 0.1;
-
 /// The loop of the surface's border that passes through a vertex or nearest to a point. Vertices in
 /// order, the surface on their left; begins and ends at the smallest id. Throws:
 /// Error{curve_invalid} if there is none, or none near enough.

@@ -77,8 +77,7 @@ std::vector<SurfacePlace> places_of(const std::vector<Index>& vertices) {
 Points3 line_of_model(const SurfaceMesh& surface, const std::string& curve,
                       const std::string& name) {
     for (const ModelLine& line : surface.lines) {
-        if (std::find(line.names.begin(), line.names.end(), name) != line.names.end())
-            return line.points;
+        if (contains(line.names, name)) return line.points;
     }
     fail_curve(curve, "line", std::nullopt, "the model has no line named '" + name + "'");
 }
@@ -194,7 +193,7 @@ private:
     template <class Fail>
     SurfacePlace on_surface(const Vec3& position, const Fail& fail) {
         const auto nearest = search().nearest(position);
-        const double most = drawn_reach * search().size();
+        const double most = tolerance::drawn_reach * search().size();
         if (nearest.distance > most)
             fail("the point is " + fixed_text(nearest.distance, 3) +
                  " mm away from the surface (at most " + fixed_text(most, 3) +
@@ -205,7 +204,7 @@ private:
     void snap(SurfacePlace& end) {
         const Vec3 at = position_of(surface_, end);
         SurfacePlace best = end;
-        double least = drawn_end_reach * search().size();
+        double least = tolerance::drawn_end_reach * search().size();
         const auto consider = [&](const SurfacePlace& a, const SurfacePlace& b) {
             const Vec3 from = position_of(surface_, a), to = position_of(surface_, b);
             if (from == to) return;

@@ -17,11 +17,6 @@ struct SurfaceLine {
     double snap = 0.0;  ///< how near to vertices and edges it may be put on them (tolerances.h)
 };
 
-/// How far a drawn point may be from the surface, and how near to another curve or to the border
-/// the end of a drawn curve must be to be put on it, as shares of the surface's size: about 6 mm
-/// and 1.2 mm on a last.
-inline constexpr double drawn_reach = 0.02, drawn_end_reach = 0.004;
-
 /// Which forms are located before which, the smallest first: what ends on others comes after them.
 /// Vertex paths, groups' lines, border loops and closed drawn lines, then shortest paths, then open
 /// drawn lines.
@@ -29,7 +24,7 @@ inline constexpr double drawn_reach = 0.02, drawn_end_reach = 0.004;
 
 /// Finds every curve on the surface, one after the other. Shortest paths are exact. The ends of
 /// shortest paths and polylines that were given in space are put on the border or an earlier curve
-/// within `drawn_end_reach`.
+/// within `tolerance::drawn_end_reach`.
 ///
 /// In:     sources in the order of their turns.
 /// Throws: Error{curve_invalid} naming the curve, the item and the place, if an id does not exist

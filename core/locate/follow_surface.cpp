@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/numerics/geometry.h"
+#include "core/numerics/tolerances.h"
 
 namespace lastflat {
 namespace {
@@ -29,10 +30,9 @@ std::optional<SurfacePlace> meeting(const SurfaceMesh& surface, const Section& s
     const double side_a = section.side(surface.position(a));
     const double side_b = section.side(surface.position(b));
     if (side_a == side_b || side_a * side_b > 0.0) return std::nullopt;
-    constexpr double at_end = 1e-9;
     const double share = side_a / (side_a - side_b);
-    if (share < at_end) return SurfacePlace::at_vertex(a);
-    if (share > 1.0 - at_end) return SurfacePlace::at_vertex(b);
+    if (share < tolerance::on_edge) return SurfacePlace::at_vertex(a);
+    if (share > 1.0 - tolerance::on_edge) return SurfacePlace::at_vertex(b);
     return SurfacePlace::on_edge(a, b, share);
 }
 
@@ -47,7 +47,7 @@ std::optional<SurfacePlace> next_place(const SurfaceMesh& surface, const Section
                                        const SurfacePlace& from, double& reached) {
     const std::vector<Index> support = from.support();
     std::optional<SurfacePlace> best;
-    double furthest = reached + 1e-12 * section.length;
+    double furthest = reached + tolerance::progress * section.length;
     for (const Index face : faces_at(surface, from)) {
         const Triangle corners = corners_of(surface, face);
         for (std::size_t i = 0; i < 3; ++i) {
@@ -137,7 +137,8 @@ bool walk(const SurfaceMesh& surface, const SurfacePlace& to, std::vector<Surfac
     constexpr std::size_t most_steps = 100'000;
     while (!share_a_face(surface, at, to)) {
         const auto next = next_place(surface, section, at, reached);
-        if (!next || reached > section.length * (1.0 + 1e-9) || way_points.size() > most_steps)
+        if (!next || reached > section.length * (1.0 + tolerance::on_edge) ||
+            way_points.size() > most_steps)
             return false;
         way_points.push_back(*next);
         at = *next;

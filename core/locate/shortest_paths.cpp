@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/geodesic/trace_path.h"
+#include "core/numerics/tolerances.h"
 
 namespace lastflat {
 namespace {
@@ -88,11 +89,10 @@ private:
     void split(std::size_t t, Index vertex, const SurfacePlace& place) {
         const Triangle whole = mesh_.triangles[t];
         const Vec3 share = shares(whole, place);
-        constexpr double round_off = 1e-12;
-        if (share.minCoeff() < -round_off) return;
+        if (share.minCoeff() < -tolerance::solved_weight) return;
         std::vector<Triangle> parts;
         for (std::size_t i = 0; i < 3; ++i) {
-            if (share[static_cast<Eigen::Index>((i + 2) % 3)] <= round_off) continue;
+            if (share[static_cast<Eigen::Index>((i + 2) % 3)] <= tolerance::solved_weight) continue;
             parts.push_back({whole[i], whole[(i + 1) % 3], vertex});
         }
         mesh_.triangles[t] = parts.front();

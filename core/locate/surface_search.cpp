@@ -1,5 +1,7 @@
 #include "core/locate/surface_search.h"
 
+#include "core/numerics/tolerances.h"
+
 namespace lastflat {
 namespace {
 
@@ -19,9 +21,7 @@ SurfaceSearch::SurfaceSearch(const SurfaceMesh& surface)
 
 SurfaceSearch::Nearest SurfaceSearch::nearest(const Vec3& position) const {
     const auto found = search_.nearest(position);
-    // What is on an edge but for round-off is on it: else a line would lose its way there.
-    constexpr double round_off = 1e-9;
-    Vec3 weights = (found.weights.array() < round_off).select(0.0, found.weights);
+    Vec3 weights = (found.weights.array() < tolerance::on_edge).select(0.0, found.weights);
     weights /= weights.sum();
     return {{corners_of(surface_, found.triangle), weights}, found.position, found.distance};
 }

@@ -4,13 +4,12 @@
 #include "core/measure/report.h"
 #include "core/measure/stretch.h"
 #include "core/numerics/geometry.h"
+#include "core/numerics/tolerances.h"
 
 namespace lastflat {
 namespace {
 
 constexpr std::size_t most_places = 10;
-/// Less is round-off.
-constexpr double noticed_percent = 1e-6;
 /// Places nearer to each other than this share of the region's size are one.
 constexpr double apart = 0.05;
 
@@ -49,7 +48,8 @@ std::vector<WorstPlace> worst_places(const Region& region, std::vector<Leather> 
     });
     std::vector<WorstPlace> places;
     for (const Leather& l : leather) {
-        if (places.size() == most_places || std::abs(l.worst()) < noticed_percent) break;
+        if (places.size() == most_places || std::abs(l.worst()) < tolerance::noticed_strain_percent)
+            break;
         const Triangle& t = region.triangles[static_cast<std::size_t>(l.triangle)];
         const Vec3 middle = centroid(region, t);
         const bool known = std::any_of(places.begin(), places.end(), [&](const WorstPlace& p) {

@@ -1,4 +1,6 @@
-// Every epsilon of core, each with its reason. All are relative unless the name says otherwise.
+// Every epsilon of core, each with its reason: what is round-off, and what is near enough to be the
+// same. All are relative unless the name says otherwise. What is judged, and what a last looks
+// like, stands where that is done.
 #pragma once
 
 namespace lastflat::tolerance {
@@ -6,6 +8,22 @@ namespace lastflat::tolerance {
 /// A triangle whose smallest height is below this share of its longest edge has no usable shape:
 /// cotangents and rest frames lose most digits, and Newton's method the rest.
 inline constexpr double degenerate_height = 1e-6;
+
+/// Vertices nearer to each other than this share of the model's size are one: the digits of a
+/// float.
+inline constexpr double same_place = 1e-6;
+/// Borders nearer than this share of the model's size may be one line, which two programs have
+/// divided each in its own way: about 0.6 mm on a last. Vertices nearer than this share of that
+/// were one from the start.
+inline constexpr double near_border = 2e-3, same_border_vertex = 1e-3;
+/// A vertex that comes to lie nearer to another than this share of the edges there would make a
+/// needle.
+inline constexpr double needle = 0.25;
+/// Two loops that run along each other differ in length by less than this share of it, and in how
+/// often they go round by less than this of a turn.
+inline constexpr double alike_length = 0.05, alike_turns = 0.01;
+/// A loose piece of less than this share of the largest one's area is a stray.
+inline constexpr double stray_area = 0.01;
 
 /// Coordinates beyond this many mm are no last, and their squares soon are no numbers.
 inline constexpr double largest_coordinate_mm = 1e6;
@@ -40,12 +58,47 @@ inline constexpr double multiplier_regularisation = 1e-7;
 /// exact anyway, and moves further rather than make needles.
 inline constexpr double geodesic_snap = 1e-4, drawn_snap = 0.05;
 
+/// How far a drawn point may be from the surface, how near to another curve or to the border the
+/// end of a drawn curve must be to be put on it, and how far a position may be from the border loop
+/// that it means, as shares of the surface's size: about 6, 1.2 and 30 mm on a last, so that the
+/// middle of a hole means the hole.
+inline constexpr double drawn_reach = 0.02, drawn_end_reach = 0.004, border_reach = 0.1;
+
+/// Barycentric weights, and shares of an edge, below this are 0: what is on an edge but for
+/// round-off is on it, else a line would lose its way there. That a plane leads further is only
+/// believed from `progress` of its length on.
+inline constexpr double on_edge = 1e-9, progress = 1e-12;
+/// The same for weights that a linear system of three has given.
+inline constexpr double solved_weight = 1e-12;
+
+/// Radians. Of border loops that turn alike to this much none is the outer one by its turning.
+inline constexpr double alike_turning = 0.01;
+
+/// Radians: a polygon that turns by less has no corner there; angles beyond the second are taken
+/// for it, because the tangent of their half soon is infinite; the third is what is left to a
+/// border vertex in the flat, where the border turns by more than pi.
+inline constexpr double corner = 1e-9, widest_angle = 3.1, least_border_angle = 1e-3;
+
+/// Edges of which the determinant of their Gram matrix is below this share of its bound are
+/// parallel: a polygon cannot be closed by changing them.
+inline constexpr double parallel = 1e-12;
+
+/// A capacity below this share of all that a flow can carry is used up.
+inline constexpr double used_up = 1e-12;
+
+/// Percent: a strain below this is round-off.
+inline constexpr double noticed_strain_percent = 1e-6;
+
 /// Geodesics: differences below this share are round-off.
 inline constexpr double geodesic_round_off = 1e-12;
 
 /// Light through an edge: what misses an end by less than this share of the edge still reaches it,
 /// so that no ray is lost between two windows; the length of its path is off by the square of it.
 inline constexpr double geodesic_slack = 1e-8;
+/// Radians: light beside a corner from this far on; a little more of it does no harm.
+inline constexpr double geodesic_margin = 1e-9;
+/// A root nearer to a corner than this share of the triangle is that corner: others are further.
+inline constexpr double geodesic_corner = 1e-6;
 
 /// Two sides of a cut may differ by this much in the flat, in mm (design: pass at 0.001 mm).
 inline constexpr double pair_difference_mm = 1e-3;

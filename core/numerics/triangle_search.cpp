@@ -53,7 +53,7 @@ TriangleSearch::Order TriangleSearch::order_of(const Triangulation& surface) {
         boxes.push_back(box);
     }
     std::vector<std::pair<std::uint64_t, Index>> keys;
-    const Vec3 sizes = all.sizes().cwiseMax(1e-300);
+    const Vec3 sizes = all.sizes().cwiseMax(std::numeric_limits<double>::min());
     for (std::size_t t = 0; t < boxes.size(); ++t) {
         const Vec3 share = (boxes[t].center() - all.min()).cwiseQuotient(sizes);
         keys.emplace_back(spread(share.x()) | spread(share.y()) << 1 | spread(share.z()) << 2,

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/numerics/geometry.h"
+#include "core/numerics/tolerances.h"
 #include "core/parameterize/weights.h"
 
 namespace lastflat {
@@ -27,8 +28,8 @@ std::vector<double> shape_preserving_weights(const Star& star) {
     const std::size_t n = star.size();
     const auto directions = polar_map(star);
     for (std::size_t j = 0; j < n; ++j) {
-        constexpr double largest = 3.1;  // as for mean values: nearly pi
-        if (directions[j + 1] - directions[j] > largest) return mean_value_weights(star);
+        if (directions[j + 1] - directions[j] > tolerance::widest_angle)
+            return mean_value_weights(star);
     }
     Points2 places;
     for (std::size_t j = 0; j < n; ++j) {

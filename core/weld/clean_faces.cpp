@@ -210,7 +210,7 @@ void drop_strays(Faces& faces, std::vector<Repair>& repairs) {
     RepairNote note;
     std::set<Index> strays;
     for (const auto& [piece, area] : areas) {
-        if (area >= least_share * largest) continue;
+        if (area >= tolerance::stray_area * largest) continue;
         strays.insert(piece);
         note.at(faces.position(piece));
     }

@@ -40,9 +40,8 @@ void clean_faces(Faces& faces, std::vector<Repair>& repairs);
 /// A surface that has no two sides stays as it is.
 void wind_alike(Faces& faces, std::vector<Repair>& repairs);
 
-/// Drops pieces that share no vertex with the rest and have less than `least_share` of the largest
-/// piece's area.
-inline constexpr double least_share = 0.01;
+/// Drops pieces that share no vertex with the rest and have less than
+/// `tolerance::stray_area` of the largest piece's area.
 void drop_strays(Faces& faces, std::vector<Repair>& repairs);
 
 }  // namespace lastflat

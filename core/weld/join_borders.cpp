@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/numerics/box_tree.h"
+#include "core/numerics/tolerances.h"
 #include "core/weld/borders.h"
 #include "core/weld/sides.h"
 
@@ -15,9 +16,6 @@ namespace {
 constexpr int most_rounds = 8;
 /// The way along the border between two places that are joined is so many times their distance.
 constexpr double least_detour = 4.0;
-/// A vertex that faces an edge nearer to its end than this share of the vertex's own border edges
-/// would make a needle there.
-constexpr double near_end = 0.25;
 
 /// One edge of a border loop, and its first vertex.
 struct Stretch {
@@ -129,8 +127,8 @@ private:
         const Stretch& own = stretches_[s];
         const Vec3& at = position(own);
         const Stretch before{own.loop, own.at + loops_[own.loop].size() - 1};
-        const double needle =
-            near_end * std::min((position(before) - at).norm(), (position(next(own)) - at).norm());
+        const double needle = tolerance::needle * std::min((position(before) - at).norm(),
+                                                           (position(next(own)) - at).norm());
         std::optional<FacedEdge> best;
         double least = tolerance_;
         for_near(at, tolerance_, [&](std::size_t other) {

@@ -8,6 +8,7 @@
 
 #include "core/numerics/box_tree.h"
 #include "core/numerics/geometry.h"
+#include "core/numerics/tolerances.h"
 #include "core/text.h"
 #include "core/weld/borders.h"
 #include "core/weld/join_borders.h"
@@ -99,7 +100,7 @@ public:
         double step = feet_of_a_.front().along - last;
         step -= b_.length * std::round(step / b_.length);
         turns_ = (at + step) / b_.length;
-        return std::abs(std::abs(turns_) - 1.0) < 0.01;
+        return std::abs(std::abs(turns_) - 1.0) < tolerance::alike_turns;
     }
 
     /// How far the furthest vertex was moved.
@@ -156,13 +157,12 @@ private:
     /// needle.
     [[nodiscard]] Bead* partner(std::vector<Bead>& beads, std::size_t count, double at,
                                 std::size_t j) const {
-        constexpr double near = 0.25;  // of the shorter of the edges there
         const double before =
             (faces_.position(b_.vertex(j)) - faces_.position(b_.vertex(j + b_.size() - 1))).norm();
         const double after =
             (faces_.position(b_.vertex(j + 1)) - faces_.position(b_.vertex(j))).norm();
         Bead* best = nullptr;
-        double least = near * std::min(before, after);
+        double least = tolerance::needle * std::min(before, after);
         const auto after_it =
             std::lower_bound(beads.begin(), beads.begin() + static_cast<std::ptrdiff_t>(count), at,
                              [](const Bead& bead, double place) { return bead.at < place; });
@@ -176,7 +176,8 @@ private:
             const double own = std::min(
                 (faces_.position(a_.vertex(i)) - faces_.position(a_.vertex(i + count - 1))).norm(),
                 (faces_.position(a_.vertex(i + 1)) - faces_.position(a_.vertex(i))).norm());
-            if (way > near * own || left.at == beads[i].at || right.at == beads[i].at) continue;
+            if (way > tolerance::needle * own || left.at == beads[i].at || right.at == beads[i].at)
+                continue;
             least = way;
             best = &beads[i];
         }
@@ -243,7 +244,9 @@ bool zip_one_pair(Faces& faces, double tolerance, double& furthest, RepairNote& 
     const auto loops = border_loops(faces);
     for (std::size_t i = 0; i < loops.size(); ++i) {
         for (std::size_t j = i + 1; j < loops.size(); ++j) {
-            if (std::abs(loops[i].length - loops[j].length) > 0.05 * loops[i].length) continue;
+            if (std::abs(loops[i].length - loops[j].length) >
+                tolerance::alike_length * loops[i].length)
+                continue;
             Zipper zipper(faces, loops[i], loops[j]);
             if (!zipper.fits(tolerance)) continue;
             furthest = std::max(furthest, zipper.close(joined, inserted));
@@ -308,9 +311,8 @@ void close_t_junctions(Faces& faces, double tolerance_mm, std::vector<Repair>& r
 void stitch(Faces& faces, double tolerance_mm, std::vector<Repair>& repairs) {
     RepairNote same, joined, inserted;
     double furthest = 0.0;
-    constexpr double same_place_share = 1e-3;
     constexpr int most_seams = 64;
-    join_same_places(faces, same_place_share * tolerance_mm, same);
+    join_same_places(faces, tolerance::same_border_vertex * tolerance_mm, same);
     for (int seam = 0; seam < most_seams; ++seam) {
         if (!zip_one_pair(faces, tolerance_mm, furthest, joined, inserted)) break;
     }

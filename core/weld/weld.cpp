@@ -119,7 +119,7 @@ double size_of(const Faces& faces) {
 void merge_places(const RawMesh& raw, const WeldOptions& options, Faces& faces) {
     if (options.tolerance_mm || !raw.indexed) {
         faces.welded_to = merge_vertices(
-            faces.positions, options.tolerance_mm.value_or(same_place * size_of(faces)));
+            faces.positions, options.tolerance_mm.value_or(tolerance::same_place * size_of(faces)));
         faces.rename();
     } else {
         faces.welded_to = each_for_itself(faces.positions.size());
@@ -153,7 +153,7 @@ void close_borders(const WeldOptions& options, Faces& faces, std::vector<Repair>
     if (is_closed(faces.triangles) || count_pieces(faces) < 2) return;
     Faces closed = faces;
     std::vector<Repair> done = repairs;
-    stitch_borders(near_border * size_of(faces), closed, done);
+    stitch_borders(tolerance::near_border * size_of(faces), closed, done);
     if (!is_closed(closed.triangles)) return;
     faces = std::move(closed);
     repairs = std::move(done);
@@ -217,7 +217,7 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options) {
     if (faces.triangles.empty())
         throw Error(ErrorCode::mesh_degenerate, "no face is left to flatten");
     if (options.tolerance_mm || !raw.indexed)
-        close_t_junctions(faces, same_place * size_of(faces), result.repairs);
+        close_t_junctions(faces, tolerance::same_place * size_of(faces), result.repairs);
     wind_alike(faces, result.repairs);
     drop_strays(faces, result.repairs);
     close_borders(options, faces, result.repairs);

@@ -7,8 +7,6 @@
 
 namespace lastflat {
 
-inline constexpr double same_place = 1e-6, near_border = 2e-3;
-
 /// Selects the faces, scales to mm (the unit is guessed where nobody says), welds, mends what can
 /// be mended, and checks that the result is a surface: every edge has one or two faces that wind
 /// alike, every vertex one fan of faces, every face an area.
