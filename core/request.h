@@ -39,11 +39,12 @@ struct WeldOptions {
     std::optional<double> unit_mm;    ///< one unit of the model in mm; default: the format's
     std::vector<std::string> groups;  ///< faces that carry one of these names; empty: all faces
     /// Vertices at most this far apart become one. Default: those of the same place, within
-    /// `tolerance::same_place` of the model's size, and only in models without indices, so that a slit stays
-    /// a slit.
+    /// `tolerance::same_place` of the model's size, and only in models without indices, so that a
+    /// slit stays a slit.
     std::optional<double> tolerance_mm;
-    /// Borders at most this far apart are stitched together; 0: none. Default: `tolerance::near_border` of the
-    /// model's size, and only if this closes a model that comes in several pieces.
+    /// Borders at most this far apart are stitched together; 0: none. Default:
+    /// `tolerance::near_border` of the model's size, and only if this closes a model that comes in
+    /// several pieces.
     std::optional<double> stitch_mm;
 };
 

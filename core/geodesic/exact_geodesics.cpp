@@ -4,7 +4,6 @@
 #include "core/geodesic/exact_geodesics.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -20,17 +19,18 @@ using std::numbers::pi;
 /// Light from a root that falls through a stretch of an edge into the triangle of `half_edge`.
 struct Window {
     double begin, end;  ///< the stretch, as x in the half-edge's frame
-    Vec2 place;         ///< of the root in that frame, y <= 0
+    Vec2 position;      ///< of the root in that frame, y <= 0
     double offset;      ///< from the source to the root
     Index half_edge;    ///< spawn: no light yet, the root is to be opened
     Index root;
     static constexpr Index spawn = -1;
 
     [[nodiscard]] double distance_at(double x) const {
-        return offset + std::sqrt((x - place.x()) * (x - place.x()) + place.y() * place.y());
+        return offset +
+               std::sqrt((x - position.x()) * (x - position.x()) + position.y() * position.y());
     }
     [[nodiscard]] double least_distance() const {
-        return distance_at(std::clamp(place.x(), begin, end));
+        return distance_at(std::clamp(position.x(), begin, end));
     }
 };
 
@@ -85,34 +85,16 @@ public:
           splits_(at(unfolding.count())),
           buckets_(0.3 * median_length(unfolding), 4 * at(unfolding.count()), most_windows) {
         result_.distance.assign(total_angles.size(), infinity);
-        result_.arrivals.assign(total_angles.size(), {GeodesicDistances::no_root, -1, {0, 0}});
+        result_.arrivals.assign(total_angles.size(), {-1, -1, {0, 0}});
     }
 
-    GeodesicDistances from_vertex(Index vertex, const Progress& progress) {
-        result_.source_vertex = vertex;
+    GeodesicDistances run(Index vertex, const Progress& progress) {
+        result_.source = vertex;
         result_.distance[at(vertex)] = 0.0;
         result_.arrivals[at(vertex)].root = vertex;
         open(vertex);
-        return run(progress);
-    }
-
-    GeodesicDistances from_point(const SurfacePoint& point, const Progress& progress) {
-        const Index first = 3 * point.triangle;
-        const Vec2 place = point.weights[1] * Vec2(half_edges_.length(first), 0.0) +
-                           point.weights[2] * half_edges_.apex_position(first);
-        const std::array<Vec2, 3> corners{Vec2(0, 0), Vec2(half_edges_.length(first), 0.0),
-                                          half_edges_.apex_position(first)};
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Index h = first + static_cast<Index>(i);
-            const Vec2 along = (corners[(i + 1) % 3] - corners[i]) / half_edges_.length(h);
-            const Vec2 in_frame(along.dot(place - corners[i]),
-                                std::max(cross(along, place - corners[i]), 0.0));
-            const Index opposite_corner = half_edges_.apex(h);
-            reach(opposite_corner, (corners[(i + 2) % 3] - place).norm(),
-                  {GeodesicDistances::no_root, h, in_frame});
-            shine(h, in_frame, 0.0, GeodesicDistances::no_root);
-        }
-        return run(progress);
+        propagate_all(progress);
+        return std::move(result_);
     }
 
 private:
@@ -127,7 +109,7 @@ private:
         return *middle;
     }
 
-    GeodesicDistances run(const Progress& progress) {
+    void propagate_all(const Progress& progress) {
         constexpr std::size_t check_every = 4096;
         Window window{};
         for (std::size_t count = 1; buckets_.pop(window); ++count) {
@@ -143,7 +125,6 @@ private:
             throw Error(ErrorCode::solver_failed,
                         "round-off hides a vertex from every shortest path");
         }
-        return std::move(result_);
     }
 
     /// A path of length `distance` has reached the vertex.
@@ -158,12 +139,14 @@ private:
         }
     }
 
-    /// All light that leaves the triangle of h through h, from a root in the triangle at `place`.
-    void shine(Index h, const Vec2& place, double offset, Index root) {
+    /// All light that leaves the triangle of h through h, from a root in the triangle at
+    /// `position`.
+    void shine(Index h, const Vec2& position, double offset, Index root) {
         const Index other = half_edges_.twin(h);
         if (other < 0) return;
         const double length = half_edges_.length(h);
-        const Window window{0.0, length, {length - place.x(), -place.y()}, offset, other, root};
+        const Window window{0.0,    length, {length - position.x(), -position.y()},
+                            offset, other,  root};
         buckets_.push(window, window.least_distance());
     }
 
@@ -172,7 +155,7 @@ private:
     void open(Index vertex) {
         constexpr double margin = tolerance::geodesic_margin;
         const double offset = result_.distance[at(vertex)];
-        const bool whole = vertex == result_.source_vertex;
+        const bool whole = vertex == result_.source;
         const bool border = half_edges_.on_border(vertex);
         const double total = total_angles_[at(vertex)];
         const double came = whole ? 0.0 : direction_of_arrival(vertex);
@@ -206,7 +189,7 @@ private:
             const Index last = HalfEdges::previous(h), opposite = HalfEdges::next(h);
             if (arrival.half_edge == opposite) {
                 const Vec2& apex = half_edges_.apex_position(opposite);
-                const Vec2 along_h = -apex, back = arrival.place - apex;
+                const Vec2 along_h = -apex, back = arrival.position - apex;
                 return begin + signed_angle(along_h, back);
             }
             if (arrival.half_edge < 0 && half_edges_.to(h) == arrival.root) return begin;
@@ -220,14 +203,15 @@ private:
     void propagate(const Window& w) {
         const Index h = w.half_edge, left = HalfEdges::previous(h), right = HalfEdges::next(h);
         const Vec2& apex = half_edges_.apex_position(h);
-        const double length = half_edges_.length(h), depth = -w.place.y();
+        const double length = half_edges_.length(h), depth = -w.position.y();
         const double slack = tolerance::geodesic_slack * length;
         // Where the line from the root to the apex passes the edge.
-        const double split = w.place.x() + (apex.x() - w.place.x()) * depth / (apex.y() + depth);
+        const double split =
+            w.position.x() + (apex.x() - w.position.x()) * depth / (apex.y() + depth);
         bool go_left = split > w.begin + slack, go_right = split < w.end - slack;
         if (split >= w.begin - slack && split <= w.end + slack) {
-            const double distance = w.offset + (apex - w.place).norm();
-            reach(half_edges_.from(left), distance, {w.root, h, w.place});
+            const double distance = w.offset + (apex - w.position).norm();
+            reach(half_edges_.from(left), distance, {w.root, h, w.position});
             Split& best = splits_[at(h)];
             if (distance < best.distance) {
                 best = {distance, split};
@@ -239,28 +223,29 @@ private:
         const double apex_length = half_edges_.length(left);  // from the origin to the apex
         if (go_left) {
             const Vec2 along = apex / apex_length;
-            const Vec2 place(along.dot(w.place), cross(along, w.place));
+            const Vec2 position(along.dot(w.position), cross(along, w.position));
             const auto crossing = [&](double x) {
-                return apex_length * x * depth / (depth * apex.x() + apex.y() * (w.place.x() - x));
+                return apex_length * x * depth /
+                       (depth * apex.x() + apex.y() * (w.position.x() - x));
             };
             const double begin = crossing(w.begin);
             const double end = split <= w.end ? apex_length : crossing(w.end);
-            pass(w, half_edges_.twin(left), begin, end, place, half_edges_.to(h),
+            pass(w, half_edges_.twin(left), begin, end, position, half_edges_.to(h),
                  (begin * along - Vec2(length, 0.0)).norm(), true);
         }
         if (go_right) {
             const double side = half_edges_.length(right);
-            const Vec2 along = (Vec2(length, 0.0) - apex) / side, from_apex = w.place - apex;
-            const Vec2 place(along.dot(from_apex), cross(along, from_apex));
+            const Vec2 along = (Vec2(length, 0.0) - apex) / side, from_apex = w.position - apex;
+            const Vec2 position(along.dot(from_apex), cross(along, from_apex));
             // Seen from the edge's end, the mirror image of the left side.
             const Vec2 mirrored(length - apex.x(), apex.y());
             const auto crossing = [&](double x) {
-                const double y = length - x, root = length - w.place.x();
+                const double y = length - x, root = length - w.position.x();
                 return side - side * y * depth / (depth * mirrored.x() + mirrored.y() * (root - y));
             };
             const double begin = split >= w.begin ? 0.0 : crossing(w.begin);
             const double end = crossing(w.end);
-            pass(w, half_edges_.twin(right), begin, end, place, half_edges_.from(h),
+            pass(w, half_edges_.twin(right), begin, end, position, half_edges_.from(h),
                  (apex + end * along).norm(), false);
         }
     }
@@ -268,7 +253,7 @@ private:
     /// Queues the part of a window that leaves through an edge, unless a path over a vertex is
     /// known to be shorter for all of it: over either end of the edge, or over the corner behind,
     /// from which the way to the window's far end crosses all of its light.
-    void pass(const Window& parent, Index h, double begin, double end, const Vec2& place,
+    void pass(const Window& parent, Index h, double begin, double end, const Vec2& position,
               Index behind, double behind_to_far, bool far_is_begin) {
         if (h < 0) return;
         const double length = half_edges_.length(h);
@@ -276,7 +261,7 @@ private:
         end = std::min(end, length);
         const double slack = tolerance::geodesic_slack * length;
         if (!(end - begin > slack)) return;
-        const Window window{begin,         end, {place.x(), std::min(place.y(), 0.0)},
+        const Window window{begin,         end, {position.x(), std::min(position.y(), 0.0)},
                             parent.offset, h,   parent.root};
         const double at_begin = window.distance_at(begin), at_end = window.distance_at(end);
         if (result_.distance[at(half_edges_.from(h))] + end < at_end - slack) return;
@@ -317,20 +302,7 @@ ExactGeodesics::ExactGeodesics(Unfolding unfolding, std::size_t windows_per_half
 }
 
 GeodesicDistances ExactGeodesics::from_vertex(Index vertex, const Progress& progress) const {
-    return Propagation(unfolding_, total_angles_, most_windows_).from_vertex(vertex, progress);
-}
-
-GeodesicDistances ExactGeodesics::from_point(const SurfacePoint& point,
-                                             const Progress& progress) const {
-    Eigen::Index corner = 0;
-    if (point.weights.maxCoeff(&corner) >= 1.0 - tolerance::geodesic_round_off) {
-        return from_vertex(unfolding_.from(3 * point.triangle + static_cast<Index>(corner)),
-                           progress);
-    }
-    GeodesicDistances result =
-        Propagation(unfolding_, total_angles_, most_windows_).from_point(point, progress);
-    result.source = point;
-    return result;
+    return Propagation(unfolding_, total_angles_, most_windows_).run(vertex, progress);
 }
 
 }  // namespace lastflat

@@ -8,27 +8,17 @@
 
 namespace lastflat {
 
-/// A place on a surface: in a triangle, by barycentric weights of its corners. One weight 0: on an
-/// edge; two: at a vertex.
-struct SurfacePoint {
-    Index triangle;
-    Vec3 weights;
-};
-
-/// Distances from one source to every vertex, mm, and how each shortest path arrives.
+/// Distances from one vertex to every other, mm, and how each shortest path arrives.
 struct GeodesicDistances {
     /// The last straight stretch of a shortest path. It comes from `root`, the vertex where the
-    /// path bent last (or the source), which lies at `place` in the frame of `half_edge`, across
+    /// path bent last (or the source), which lies at `position` in the frame of `half_edge`, across
     /// which it enters the last triangle. `half_edge` -1: it runs along the edge from `root`.
     struct Arrival {
-        Index root;  ///< no_root: the source itself, where that is not a vertex
-        Index half_edge;
-        Vec2 place;
+        Index root, half_edge;
+        Vec2 position;
     };
-    static constexpr Index no_root = -1;
 
-    SurfacePoint source;
-    Index source_vertex = -1;  ///< if the source is a vertex
+    Index source = -1;
     std::vector<double> distance;
     std::vector<Arrival> arrivals;
 };
@@ -52,8 +42,6 @@ public:
     /// Throws: Error{cancelled}; Error{solver_failed} if a run would make too many windows, or
     /// if round-off in a row of nearly flat vertices hides one from all of them.
     [[nodiscard]] GeodesicDistances from_vertex(Index vertex, const Progress& progress) const;
-    [[nodiscard]] GeodesicDistances from_point(const SurfacePoint& point,
-                                               const Progress& progress) const;
 
     [[nodiscard]] const Unfolding& unfolding() const { return unfolding_; }
 

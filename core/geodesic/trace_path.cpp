@@ -47,24 +47,22 @@ Line crossed(const Unfolding& unfolding, const Line& line) {
 /// Appends the straight stretch before `vertex`, from there backwards, and returns where it begins:
 /// at its root, or at a vertex that it passes closely. Over that vertex the way is as long, and
 /// which side of it the line passes round-off would decide.
-Index trace_stretch(const Unfolding& unfolding, const GeodesicDistances& distances,
-                    const Arrival& arrival, Index vertex, std::vector<PathPoint>& points) {
+Index trace_stretch(const Unfolding& unfolding, const Arrival& arrival, Index vertex,
+                    std::vector<PathPoint>& points) {
     const auto lose_way = [&] {
         throw Error(
             ErrorCode::solver_failed,
             "a shortest path to vertex " + std::to_string(vertex) + " cannot be traced back");
     };
-    const bool from_inside = arrival.half_edge >= 0 && arrival.root == GeodesicDistances::no_root &&
-                             arrival.half_edge / 3 == distances.source.triangle;
-    if (arrival.half_edge < 0 || from_inside) return arrival.root;
+    if (arrival.half_edge < 0) return arrival.root;
     // First across the arrival's own edge, seen from the triangle before it.
     const Vec2& apex = unfolding.apex_position(arrival.half_edge);
-    const double length = unfolding.length(arrival.half_edge), depth = -arrival.place.y();
+    const double length = unfolding.length(arrival.half_edge), depth = -arrival.position.y();
     const double x =
-        arrival.place.x() + (apex.x() - arrival.place.x()) * depth / (apex.y() + depth);
+        arrival.position.x() + (apex.x() - arrival.position.x()) * depth / (apex.y() + depth);
     Line line{unfolding.twin(arrival.half_edge),
               std::clamp(length - x, 0.0, length),
-              {length - arrival.place.x(), depth}};
+              {length - arrival.position.x(), depth}};
     for (Index step = 0; step < unfolding.count(); ++step) {
         if (line.half_edge < 0) lose_way();
         const Index from = unfolding.from(line.half_edge), to = unfolding.to(line.half_edge);
@@ -72,11 +70,7 @@ Index trace_stretch(const Unfolding& unfolding, const GeodesicDistances& distanc
         if (share < tolerance::geodesic_slack) return from;
         if (share > 1.0 - tolerance::geodesic_slack) return to;
         points.push_back({from, to, share});
-        if (arrival.root == GeodesicDistances::no_root
-                ? line.half_edge / 3 == distances.source.triangle
-                : ends_at_apex(unfolding, line, arrival.root)) {
-            return arrival.root;
-        }
+        if (ends_at_apex(unfolding, line, arrival.root)) return arrival.root;
         line = crossed(unfolding, line);
     }
     lose_way();
@@ -88,11 +82,11 @@ Index trace_stretch(const Unfolding& unfolding, const GeodesicDistances& distanc
 GeodesicPath trace_path(const Unfolding& unfolding, const GeodesicDistances& distances,
                         Index vertex) {
     GeodesicPath path;
-    for (Index at = vertex; at != GeodesicDistances::no_root;) {
+    for (Index at = vertex; at >= 0;) {
         path.points.push_back({at, at, 0.0});
-        if (at == distances.source_vertex) break;
+        if (at == distances.source) break;
         const Arrival& arrival = distances.arrivals[static_cast<std::size_t>(at)];
-        at = trace_stretch(unfolding, distances, arrival, at, path.points);
+        at = trace_stretch(unfolding, arrival, at, path.points);
     }
     std::reverse(path.points.begin(), path.points.end());
     return path;

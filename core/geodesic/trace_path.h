@@ -12,10 +12,9 @@ struct PathPoint {
     double share;
 };
 
-/// The shortest path from the source to a vertex: its corners on edges and at vertices.
+/// The shortest path from the source to a vertex: its points on edges and at vertices, in order.
 struct GeodesicPath {
-    std::vector<PathPoint> points;  ///< from the source's side; a source that is no vertex is left
-                                    ///< out, since it lies on no edge
+    std::vector<PathPoint> points;
 };
 
 /// Unfolds the triangles backwards from the vertex along the straight line on which its shortest

@@ -131,33 +131,6 @@ TEST_SUITE("core/geodesic/exact_geodesics") {
         CHECK(excess < 1e-10);
     }
 
-    TEST_CASE("a point in a face or on an edge is a source like the vertex it becomes when split") {
-        const Region region = test::dome(10, 1.0);
-        const ExactGeodesics geodesics(region);
-        for (const Vec3& weights :
-             {Vec3(0.2, 0.5, 0.3), Vec3(0.4, 0.6, 0.0), Vec3(1.0, 0.0, 0.0)}) {
-            const Index triangle = 83;
-            const Triangle corners = region.triangles[static_cast<std::size_t>(triangle)];
-            const auto distances = geodesics.from_point({triangle, weights}, Progress());
-            Vec3 place = Vec3::Zero();
-            for (std::size_t i = 0; i < 3; ++i)
-                place += weights[static_cast<Eigen::Index>(i)] * region.position(corners[i]);
-            // Known from the other side: the distance to a point lies under every corner's roof.
-            for (Index v = 0; v < static_cast<Index>(region.positions.size()); v += 5) {
-                const auto back = geodesics.from_vertex(v, Progress());
-                for (const Index c : corners) {
-                    CHECK(std::abs(at(back, c) - at(distances, v)) <=
-                          (region.position(c) - place).norm() + 1e-10);
-                }
-                const auto path = trace_path(geodesics.unfolding(), distances, v);
-                const double first =
-                    (place_of(path.points.front(), region.positions) - place).norm();
-                CHECK(first + length_of(region, path) ==
-                      doctest::Approx(at(distances, v)).epsilon(1e-10));
-            }
-        }
-    }
-
     TEST_CASE("a path is as long as its distance") {
         for (const Region& region : {test::dome(16, 1.3), test::saddle(17), test::cone(11)}) {
             const ExactGeodesics geodesics(region);
