@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/constrain/constraint_rows.h"
 #include "core/constrain/refine.h"
 #include "core/measure/check_result.h"
 #include "core/parallel.h"

@@ -28,16 +28,23 @@ struct BoundedEdges {
     double least, most;
 };
 
+/// The edges whose lengths a row adds up; none: it is not such a row.
+std::set<Edge> added_edges(const Row& row) {
+    std::set<Edge> edges;
+    for (const RowTerm& term : row.terms) {
+        const Length* length = std::get_if<Length>(&term.of);
+        if (length == nullptr || term.factor != 1.0) return {};
+        edges.insert(std::minmax(length->a, length->b));
+    }
+    return edges;
+}
+
 std::vector<BoundedEdges> bounded_edges(const std::vector<ConstraintRow>& rows) {
     std::vector<BoundedEdges> result;
     for (const ConstraintRow& row : rows) {
-        BoundedEdges bounded{row.constraint, {}, row.least, row.most};
-        const bool is_length = std::all_of(row.terms.begin(), row.terms.end(), [](const Term& t) {
-            return t.kind == TermKind::length && t.factor == 1.0;
-        });
-        if (!is_length) continue;
-        for (const Term& term : row.terms) bounded.edges.insert(std::minmax(term.a, term.b));
-        result.push_back(std::move(bounded));
+        auto edges = added_edges(row);
+        if (!edges.empty())
+            result.push_back({row.constraint, std::move(edges), row.least, row.most});
     }
     return result;
 }
@@ -107,15 +114,15 @@ private:
     [[nodiscard]] std::optional<OpenLoop> pins(std::size_t r) const {
         std::map<std::pair<double, double>, std::size_t> places;  // to the row of the x coordinate
         for (std::size_t k = 0; k + 1 < rows_.size(); ++k) {
-            const Term& term = rows_[k].terms.front();
-            if (term.kind != TermKind::coordinate || term.b != 0) continue;
-            if (domain_.region_of(term.a) != r) continue;
+            const Coordinate* pin = rows_[k].coordinate();
+            if (pin == nullptr || pin->axis != 0) continue;
+            if (domain_.region_of(pin->vertex) != r) continue;
             const auto [other, is_new] =
                 places.emplace(std::pair(rows_[k].most, rows_[k + 1].most), k);
-            if (is_new || rows_[other->second].vertex == term.a) continue;
+            if (is_new || rows_[other->second].vertex == pin->vertex) continue;
             const ConstraintRow& first = rows_[other->second];
             return loop({first.constraint, rows_[k].constraint},
-                        domain_.distance(first.vertex, term.a), term.a,
+                        domain_.distance(first.vertex, pin->vertex), pin->vertex,
                         "two vertices cannot lie in one place");
         }
         return std::nullopt;

@@ -16,9 +16,7 @@ namespace {
 using Edge = std::pair<Index, Index>;
 
 /// A stretch of a curve, in the domain's vertices.
-struct Side {
-    std::vector<Index> vertices;
-};
+using Side = std::vector<Index>;
 
 /// Stretches of curves, each with the place of its region.
 using Sides = std::vector<std::pair<std::size_t, const CurveRun*>>;
@@ -108,9 +106,9 @@ private:
         return in_domain(runs_of(domain_.regions, demand.curve, demand.region));
     }
 
-    [[nodiscard]] Side in_domain(std::size_t r, std::vector<Index> vertices) const {
-        for (Index& v : vertices) v += domain_.first[r];
-        return {std::move(vertices)};
+    [[nodiscard]] Side in_domain(std::size_t r, Side side) const {
+        for (Index& v : side) v += domain_.first[r];
+        return side;
     }
 
     [[nodiscard]] std::vector<Side> in_domain(const Sides& runs) const {
@@ -119,67 +117,67 @@ private:
         return result;
     }
 
-    void add_row(std::vector<Term> terms, double least, double most, double reference,
+    void add_row(std::vector<RowTerm> terms, double least, double most, double reference,
                  Index vertex) {
-        rows_.push_back({current_, std::move(terms), least, most, reference, vertex});
+        rows_.push_back({{std::move(terms), least, most, reference, vertex}, current_});
     }
 
     /// Adds the terms of the side's length; returns its length on the surface.
-    double add_length(const Side& side, double factor, std::vector<Term>& terms) const {
+    double add_length(const Side& side, double factor, std::vector<RowTerm>& terms) const {
         double length = 0.0;
-        for (std::size_t i = 1; i < side.vertices.size(); ++i) {
-            const Index a = side.vertices[i - 1], b = side.vertices[i];
-            terms.push_back({TermKind::length, factor, a, b});
+        for (std::size_t i = 1; i < side.size(); ++i) {
+            const Index a = side[i - 1], b = side[i];
+            terms.push_back({factor, Length{a, b}});
             length += domain_.distance(a, b);
         }
         return length;
     }
 
     void lock_edges(const Side& side) {
-        for (std::size_t i = 1; i < side.vertices.size(); ++i) {
-            const auto [a, b] = std::minmax(side.vertices[i - 1], side.vertices[i]);
+        for (std::size_t i = 1; i < side.size(); ++i) {
+            const auto [a, b] = std::minmax(side[i - 1], side[i]);
             const double length = domain_.distance(a, b);
-            add_row({{TermKind::length, 1.0, a, b}}, length, length, length, a);
+            add_row({{1.0, Length{a, b}}}, length, length, length, a);
         }
     }
 
     /// The length of a whole side: exact, or in a range.
     void bound_length(const Side& side, double min_percent, double max_percent) {
-        std::vector<Term> terms;
+        std::vector<RowTerm> terms;
         const double length = add_length(side, 1.0, terms);
         add_row(std::move(terms), length * (1.0 + min_percent / 100.0),
-                length * (1.0 + max_percent / 100.0), length, side.vertices.front());
+                length * (1.0 + max_percent / 100.0), length, side.front());
     }
 
     void match(const Side& a, const Side& b) {
-        std::vector<Term> terms;
+        std::vector<RowTerm> terms;
         const double length = add_length(a, 1.0, terms);
         add_length(b, -1.0, terms);
-        add_row(std::move(terms), 0.0, 0.0, length, a.vertices.front());
+        add_row(std::move(terms), 0.0, 0.0, length, a.front());
     }
 
     /// Every three consecutive points on a line: their triangle over their distance in space.
     void straighten(const Side& side) {
-        const double chord = domain_.distance(side.vertices.front(), side.vertices.back());
-        for (std::size_t i = 2; i < side.vertices.size(); ++i) {
-            const Index a = side.vertices[i - 2], b = side.vertices[i - 1], c = side.vertices[i];
+        const double chord = domain_.distance(side.front(), side.back());
+        for (std::size_t i = 2; i < side.size(); ++i) {
+            const Index a = side[i - 2], b = side[i - 1], c = side[i];
             const double base = domain_.distance(a, c);
             if (!(base > 0.0)) continue;  // a closed curve of two edges
-            add_row({{TermKind::cross, 1.0 / base, a, b},
-                     {TermKind::cross, 1.0 / base, b, c},
-                     {TermKind::cross, 1.0 / base, c, a}},
-                    0.0, 0.0, std::max(chord, base), b);
+            add_row(
+                {{1.0 / base, Cross{a, b}}, {1.0 / base, Cross{b, c}}, {1.0 / base, Cross{c, a}}},
+                0.0, 0.0, std::max(chord, base), b);
         }
     }
 
     void bound_area(std::size_t r, const TotalArea& bounds) {
         const Region& region = *domain_.regions[r];
         const double area = areas_[r], size = std::sqrt(area);
-        std::vector<Term> terms;
+        std::vector<RowTerm> terms;
         for (const auto& loop : border_loops(region)) {
             for (std::size_t i = 0; i < loop.size(); ++i)
-                terms.push_back({TermKind::cross, 0.5 / size, loop[i] + domain_.first[r],
-                                 loop[(i + 1) % loop.size()] + domain_.first[r]});
+                terms.push_back(
+                    {0.5 / size, Cross{loop[i] + domain_.first[r],
+                                       loop[(i + 1) % loop.size()] + domain_.first[r]}});
         }
         add_row(std::move(terms), area / size * (1.0 + bounds.min_percent / 100.0),
                 area / size * (1.0 + bounds.max_percent / 100.0), size,
@@ -191,7 +189,7 @@ private:
         const double size = std::sqrt(areas_[r]);
         for (Index axis = 0; axis < 2; ++axis) {
             const double at = pinned.place[axis];
-            add_row({{TermKind::coordinate, 1.0, v, axis}}, at, at, size, v);
+            add_row({{1.0, Coordinate{v, axis}}}, at, at, size, v);
         }
     }
 
@@ -210,9 +208,10 @@ public:
     bool imply(const ConstraintRow& row) {
         if (!row.is_equation()) return false;
         Equation equation{{}, row.most, std::abs(row.most)};
-        for (const Term& term : row.terms) {
-            if (term.kind != TermKind::length) return false;
-            equation.factors[std::minmax(term.a, term.b)] += term.factor;
+        for (const RowTerm& term : row.terms) {
+            const Length* length = std::get_if<Length>(&term.of);
+            if (length == nullptr) return false;
+            equation.factors[std::minmax(length->a, length->b)] += term.factor;
         }
         reduce(equation);
         if (!equation.factors.empty()) {
@@ -276,31 +275,18 @@ std::vector<std::pair<std::size_t, std::size_t>> coupled_by(
 
 }  // namespace
 
-double ConstraintRow::value(const Eigen::VectorXd& x) const {
-    const Vec2 o = origin(x);
-    double sum = 0.0;
-    for (const Term& term : terms) {
-        const Vec2 a = x.segment<2>(2 * term.a);
-        switch (term.kind) {
-            case TermKind::length:
-                sum += term.factor * (a - x.segment<2>(2 * term.b)).norm();
-                break;
-            case TermKind::cross:
-                sum += term.factor * cross(a - o, x.segment<2>(2 * term.b) - o);
-                break;
-            case TermKind::coordinate: sum += term.factor * a[term.b]; break;
-        }
-    }
-    return sum;
-}
-
-double ConstraintRow::violation(double value) const {
-    return value > most ? value - most : value < least ? value - least : 0.0;
-}
-
 std::vector<ConstraintRow> constraint_rows(const Domain& domain,
                                            const std::vector<Constraint>& constraints) {
     return RowBuilder(domain, constraints).run();
+}
+
+std::vector<Wire> locked_wires(const Domain& domain, const std::vector<Constraint>& constraints) {
+    std::vector<Wire> wires;
+    for (std::size_t r = 0; r < domain.regions.size(); ++r) {
+        for (const CurveRun* run : runs_locked_by_edges(*domain.regions[r], constraints))
+            wires.push_back({r, run->vertices});
+    }
+    return wires;
 }
 
 std::vector<std::size_t> distinct_rows(const std::vector<ConstraintRow>& rows,

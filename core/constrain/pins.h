@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/constrain/constraint.h"
-#include "core/parameterize/domain.h"
+#include "core/optimize/domain.h"
 
 namespace lastflat {
 

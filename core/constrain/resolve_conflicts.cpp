@@ -6,6 +6,7 @@
 
 #include "core/constrain/closure.h"
 #include "core/numerics/tolerances.h"
+#include "core/optimize/border_contact.h"
 
 namespace lastflat {
 namespace {
@@ -50,12 +51,15 @@ public:
           starts_(starts),
           demands_(demands),
           constraints_(demands.constraints),
-          threads_(threads),
           progress_(progress),
           rows_(constraint_rows(domain, constraints_)),
-          stiff_curves_(domain, constraints_),
+          distortion_(domain, demands.energy, demands.weights),
+          wires_(domain, locked_wires(domain, constraints_)),
+          approach_{domain, distortion_, {}, {}, threads},
           role_(constraints_.size(), Role::kept),
-          compliance_(rows_.size(), compromise) {}
+          compliance_(rows_.size(), compromise) {
+        if (demands.contact) approach_.terms.push_back(&contact_.emplace(domain));
+    }
 
     ConstrainedChart run() {
         ConstrainedChart result;
@@ -98,18 +102,14 @@ private:
 
     [[nodiscard]] Minimum solve_from(const std::vector<Chart>& starts,
                                      const std::vector<Role>& roles) const {
-        std::vector<ConstraintRow> rows;
-        std::vector<double> compliance;
+        Problem problem = approach_;
+        problem.terms.push_back(&wires_);
         for (const std::size_t k : chosen_rows(roles)) {
-            rows.push_back(rows_[k]);
-            compliance.push_back(roles[rows_[k].constraint] == Role::soft ? compliance_[k] : 0.0);
+            problem.rows.push_back(rows_[k]);
+            if (roles[rows_[k].constraint] == Role::soft)
+                problem.rows.back().compliance = compliance_[k];
         }
-        Problem problem{domain_, rows, demands_.energy, std::move(compliance)};
-        problem.threads = threads_;
-        problem.contact = demands_.contact;
-        problem.stiff_curves = &stiff_curves_;
-        problem.weights = demands_.weights;
-        Minimum minimum = minimise_distortion(problem, starts, progress_);
+        Minimum minimum = minimise_distortion(approach_, problem, starts, progress_);
         steps_ += minimum.iterations;
         return minimum;
     }
@@ -258,10 +258,12 @@ private:
     const std::vector<Chart>& starts_;
     const Demands& demands_;
     const std::vector<Constraint>& constraints_;
-    std::size_t threads_;
     const Progress& progress_;
     const std::vector<ConstraintRow> rows_;
-    const StiffCurves stiff_curves_;
+    const Distortion distortion_;
+    const WireStiffness wires_;
+    std::optional<BorderContact> contact_;
+    Problem approach_;       ///< without rows and wires
     mutable int steps_ = 0;  ///< of all solves
     std::vector<Role> role_;
     std::vector<double> compliance_;  ///< per row, while it is soft

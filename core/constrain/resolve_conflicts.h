@@ -1,7 +1,9 @@
 // What happens when constraints cannot all hold.
 #pragma once
 
-#include "core/constrain/constrained_newton.h"
+#include "core/constrain/minimise_distortion.h"
+#include "core/error.h"
+#include "core/request.h"
 
 namespace lastflat {
 
@@ -15,20 +17,20 @@ struct ConstrainedChart {
 struct Demands {
     const std::vector<Constraint>& constraints;
     const IsotropicEnergy& energy;
-    std::vector<std::vector<double>> weights{};  ///< see `Problem`
+    std::vector<std::vector<double>> weights{};  ///< see `Distortion`
     OnConflict on_conflict = OnConflict::fail;
-    bool contact = false;  ///< see `Problem`
+    bool contact = false;  ///< borders are kept from crossing themselves; no start may cross
 };
 
-/// Least distortion of a domain under constraints.
+/// Least distortion of a domain under constraints. Curves that are locked by edges are stiff (see
+/// `WireStiffness`).
 ///
 /// Out:    every constraint kept to `tolerance::locked_length` but the relaxed ones, of which the
 ///         least important one of every set that fights gave way; it still pulls, with at most a
 ///         tenth of the size of the surface, so that it does not distort the rest beyond measure.
 ///         Warning `not_converged` if the minimum was not reached (needles, slender shapes).
 /// Throws: Error{method_failed} if the constraints were not reached although nothing shows that
-/// they
-///         contradict each other (stuck in contact); Error{constraints_infeasible} with the
+///         they contradict each other (stuck in contact); Error{constraints_infeasible} with the
 ///         smallest set found of constraints that fight: no member of it can be left out; how far
 ///         each is off at the best compromise, and where. Others as `minimise_distortion`.
 [[nodiscard]] ConstrainedChart least_distortion(const Domain& domain,

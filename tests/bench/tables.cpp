@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "core/border/convex_border.h"
-#include "core/constrain/constrained_newton.h"
+#include "core/constrain/minimise_distortion.h"
 #include "core/constrain/scale_to_locks.h"
 #include "core/measure/report.h"
 #include "core/parameterize/start.h"

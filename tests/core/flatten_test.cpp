@@ -5,7 +5,7 @@
 #include <set>
 
 #include "core/border/convex_border.h"
-#include "core/constrain/constrained_newton.h"
+#include "core/constrain/minimise_distortion.h"
 #include "core/parameterize/start.h"
 #include "tests/helpers/minimum.h"
 #include "tests/helpers/sample.h"

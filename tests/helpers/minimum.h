@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/border/convex_border.h"
+#include "core/constrain/constraint_rows.h"
 #include "core/constrain/resolve_conflicts.h"
 #include "core/parameterize/fixed_border.h"
 #include "tests/helpers/constraints.h"
@@ -13,8 +14,12 @@ inline Minimum minimised(const Region& region, const Chart& start,
                          const IsotropicEnergy& energy = SymmetricDirichlet(),
                          const Progress& progress = Progress()) {
     const Domain domain({&region});
-    const auto rows = constraint_rows(domain, constraints);
-    return minimise_distortion({domain, rows, energy}, {start}, progress);
+    const Distortion distortion(domain, energy);
+    const Problem free{domain, distortion};
+    Problem problem = free;
+    for (const ConstraintRow& row : constraint_rows(domain, constraints))
+        problem.rows.push_back(row);
+    return minimise_distortion(free, problem, {start}, progress);
 }
 
 /// The same with its conflicts resolved and its border kept from crossing.

@@ -98,12 +98,10 @@ TEST_SUITE("core/constrain/constraint_rows") {
     }
 
     TEST_CASE("rows that follow from others go, rows that contradict them stay") {
-        const auto row = [](std::vector<Term> terms, double sum) {
-            return ConstraintRow{0, std::move(terms), sum, sum, 1.0, 0};
+        const auto row = [](std::vector<RowTerm> terms, double sum) {
+            return ConstraintRow{{std::move(terms), sum, sum, 1.0, 0}, 0};
         };
-        const auto edge = [](double factor, Index a) {
-            return Term{TermKind::length, factor, a, a + 1};
-        };
+        const auto edge = [](double factor, Index a) { return RowTerm{factor, Length{a, a + 1}}; };
         const std::vector<ConstraintRow> rows{
             row({edge(1, 0), edge(1, 1)}, 3.0),                            // 0: a + b = 3
             row({edge(1, 0)}, 1.0),                                        // 1: a = 1

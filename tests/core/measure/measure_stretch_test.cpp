@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "core/measure/report.h"
-#include "core/parameterize/distortion_weights.h"
+#include "core/constrain/distortion_weights.h"
 #include "tests/helpers/minimum.h"
 #include "tests/helpers/shapes.h"
 
@@ -56,7 +56,7 @@ TEST_SUITE("core/measure/measure_stretch") {
     }
 }
 
-TEST_SUITE("core/parameterize/distortion_weights") {
+TEST_SUITE("core/constrain/distortion_weights") {
     TEST_CASE("a heavy zone is spared, a light one takes the distortion") {
         const Region region = test::dome(12, 0.9);
         const Domain domain({&region});

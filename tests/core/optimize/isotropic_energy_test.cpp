@@ -1,10 +1,10 @@
-#include "core/parameterize/isotropic_energy.h"
+#include "core/optimize/isotropic_energy.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "core/constrain/constrained_newton.h"
+#include "core/constrain/minimise_distortion.h"
 #include "core/measure/report.h"
 #include "core/parameterize/start.h"
 #include "tests/helpers/minimum.h"
@@ -37,7 +37,7 @@ Minimum minimised(const Region& region, const IsotropicEnergy& energy, MethodNam
 
 }  // namespace
 
-TEST_SUITE("core/parameterize/isotropic_energy") {
+TEST_SUITE("core/optimize/isotropic_energy") {
     TEST_CASE("derivatives are those of the value") {
         check_derivatives(WeightedDirichlet(1.0, 4.0));
         check_derivatives(SymmetricDirichlet());

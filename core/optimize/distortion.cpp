@@ -1,6 +1,6 @@
 // Based on: Smith, de Goes, Kim, "Analytic Eigensystems for Isotropic Distortion Energies", TOG
 // 2019; Smith, Schaefer, "Bijective Parameterization with Free Boundaries", SIGGRAPH 2015.
-#include "core/parameterize/distortion.h"
+#include "core/optimize/distortion.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -9,14 +9,14 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numerics/polygon.h"
+#include "core/numerics/quadratic.h"
 #include "core/numerics/singular_values.h"
 
 namespace lastflat {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// The triangle's edges from its first vertex, in its own plane, first edge along x.
 Eigen::Matrix2d rest_edges(const Region& region, const Triangle& t) {
@@ -28,14 +28,11 @@ Eigen::Matrix2d rest_edges(const Region& region, const Triangle& t) {
     return edges;
 }
 
+/// Of a t^2 + b t + c with c > 0.
 double smallest_positive_root(double a, double b, double c) {
-    // a t^2 + b t + c = 0 with c > 0, by the formula that does not cancel.
     if (std::abs(a) < 1e-14 * std::abs(b)) return b < 0.0 ? -c / b : infinity;
-    const double discriminant = b * b - 4.0 * a * c;
-    if (discriminant < 0.0) return infinity;
-    const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
     double least = infinity;
-    for (const double root : {q / a, q != 0.0 ? c / q : infinity}) {
+    for (const double root : quadratic_roots(a, b, c)) {
         if (root > 0.0) least = std::min(least, root);
     }
     return least;
@@ -45,19 +42,17 @@ Vec2 quarter_turn(const Vec2& v) {
     return {-v.y(), v.x()};
 }
 
-using Direction = Eigen::Matrix<double, 6, 1>;
-
 /// How much of a direction in the space of maps, given by its products with the two rows of the
 /// inverse rest edges, every coordinate of the triangle moves: F = [x1 - x0, x2 - x0] B.
-Direction along(const Vec2& first, const Vec2& second) {
-    Direction result;
+Vector6 along(const Vec2& first, const Vec2& second) {
+    Vector6 result;
     result << -first - second, first, second;
     return result;
 }
 
 /// The stretches' derivatives along the four directions of a `StretchFrame`.
 struct StretchDirections {
-    Direction larger, smaller, twist, flip;
+    Vector6 larger, smaller, twist, flip;
 };
 
 StretchDirections stretch_directions(const StretchFrame& frame, const Eigen::Matrix2d& B) {
@@ -101,20 +96,14 @@ Matrix6 element_hessian(const Eigen::Matrix2d& F, const Eigen::Matrix2d& B, doub
     if (kind == HessianKind::projected) project(e);
     const StretchDirections d = stretch_directions(frame, B);
     Matrix6 hessian;
-    const Direction larger = weight * (e.d11 * d.larger + e.d12 * d.smaller);
-    const Direction smaller = weight * (e.d12 * d.larger + e.d22 * d.smaller);
-    const Direction twist = weight * e.twist * d.twist, flip = weight * e.flip * d.flip;
+    const Vector6 larger = weight * (e.d11 * d.larger + e.d12 * d.smaller);
+    const Vector6 smaller = weight * (e.d12 * d.larger + e.d22 * d.smaller);
+    const Vector6 twist = weight * e.twist * d.twist, flip = weight * e.flip * d.flip;
     for (Eigen::Index j = 0; j < 6; ++j) {
         hessian.col(j) =
             d.larger[j] * larger + d.smaller[j] * smaller + d.twist[j] * twist + d.flip[j] * flip;
     }
     return hessian;
-}
-
-Index slot_of(const SparseMatrix& matrix, Index row, Index column) {
-    const auto* begin = matrix.innerIndexPtr() + matrix.outerIndexPtr()[column];
-    const auto* end = matrix.innerIndexPtr() + matrix.outerIndexPtr()[column + 1];
-    return static_cast<Index>(std::lower_bound(begin, end, row) - matrix.innerIndexPtr());
 }
 
 }  // namespace
@@ -155,9 +144,8 @@ double Distortion::value(const Eigen::VectorXd& x) const {
     return sum;
 }
 
-double Distortion::collapse_step(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const {
+double Distortion::largest_step(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const {
     double least = infinity;
-    const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
     for (const Element& element : elements_) {
         const auto& t = element.vertices;
         const Vec2 p1 = point(x, t[1]) - point(x, t[0]), p2 = point(x, t[2]) - point(x, t[0]);
@@ -165,50 +153,35 @@ double Distortion::collapse_step(const Eigen::VectorXd& x, const Eigen::VectorXd
         least = std::min(least, smallest_positive_root(cross(d1, d2), cross(d1, p2) + cross(p1, d2),
                                                        cross(p1, p2)));
     }
-    return least;
+    return std::min(1.0, 0.95 * least);
 }
 
-void Distortion::bind(const SparseMatrix& matrix) {
-    slots_.resize(elements_.size());
-    for (std::size_t e = 0; e < elements_.size(); ++e) {
-        std::size_t slot = 0;
-        for (Index i = 0; i < 6; ++i) {
-            for (Index j = 0; j <= i; ++j) {
-                const Index a = 2 * elements_[e].vertices[static_cast<std::size_t>(i / 2)] + i % 2;
-                const Index b = 2 * elements_[e].vertices[static_cast<std::size_t>(j / 2)] + j % 2;
-                slots_[e][slot++] = slot_of(matrix, std::max(a, b), std::min(a, b));
-            }
-        }
+std::vector<Triangle> Distortion::elements() const {
+    std::vector<Triangle> triangles;
+    triangles.reserve(elements_.size());
+    for (const Element& element : elements_) triangles.push_back(element.vertices);
+    return triangles;
+}
+
+void Distortion::for_hessian(const Eigen::VectorXd& x, HessianKind kind,
+                             const TakeHessian& take) const {
+    for (const Element& element : elements_) {
+        take(element.vertices, element_hessian(gradient_of(element, x), element.rest_inverse,
+                                               element.area, energy_, kind));
     }
 }
 
-void Distortion::add_hessian(const Eigen::VectorXd& x, HessianKind kind,
-                             SparseMatrix& matrix) const {
-    double* values = matrix.valuePtr();
-    for (std::size_t e = 0; e < elements_.size(); ++e) {
-        const Element& element = elements_[e];
-        const Matrix6 hessian = element_hessian(gradient_of(element, x), element.rest_inverse,
-                                                element.area, energy_, kind);
-        std::size_t slot = 0;
-        for (Eigen::Index i = 0; i < 6; ++i) {
-            for (Eigen::Index j = 0; j <= i; ++j) values[slots_[e][slot++]] += hessian(i, j);
-        }
-    }
-}
-
-Eigen::VectorXd Distortion::gradient(const Eigen::VectorXd& x) const {
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
+void Distortion::add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const {
     for (const Element& element : elements_) {
         const StretchFrame frame = stretch_frame(gradient_of(element, x));
         const EnergyDerivatives e = energy_.derivatives(frame.larger(), frame.smaller());
         const StretchDirections d = stretch_directions(frame, element.rest_inverse);
-        const Direction sum = element.area * (e.d1 * d.larger + e.d2 * d.smaller);
+        const Vector6 sum = element.area * (e.d1 * d.larger + e.d2 * d.smaller);
         for (Eigen::Index i = 0; i < 3; ++i) {
             gradient.segment<2>(2 * element.vertices[static_cast<std::size_t>(i)]) +=
                 sum.segment<2>(2 * i);
         }
     }
-    return gradient;
 }
 
 }  // namespace lastflat

@@ -1,8 +1,10 @@
-#include "core/constrain/stiff_curves.h"
+#include "core/optimize/wire_stiffness.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "core/numerics/polygon.h"
 
@@ -11,8 +13,6 @@ namespace {
 
 /// Of the surface's area to the power of 3/2. A half of a last: about 4 mm^3.
 constexpr double stiffness_share = 1.5e-6;
-
-using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// Angles on the surface, by the directed edge that a corner's triangle begins with.
 class Corners {
@@ -59,7 +59,7 @@ struct Turn {
     Vector6 gradient;
 };
 
-Turn turn_of(const std::array<Index, 3>& vertices, const Eigen::VectorXd& x) {
+Turn turn_of(const Triangle& vertices, const Eigen::VectorXd& x) {
     const Vec2 e = point(x, vertices[1]) - point(x, vertices[0]);
     const Vec2 f = point(x, vertices[2]) - point(x, vertices[1]);
     const Vec2 de = Vec2(-e.y(), e.x()) / e.squaredNorm();
@@ -84,34 +84,37 @@ Eigen::Matrix2d angle_hessian(const Vec2& e) {
 
 }  // namespace
 
-StiffCurves::StiffCurves(const Domain& domain, const std::vector<Constraint>& constraints) {
-    for (std::size_t r = 0; r < domain.regions.size(); ++r) {
-        for (const CurveRun* run : runs_locked_by_edges(*domain.regions[r], constraints))
-            add_run(domain, r, *run);
+WireStiffness::WireStiffness(const Domain& domain, const std::vector<Wire>& wires) {
+    for (const Wire& wire : wires) {
+        const Region& region = *domain.regions[wire.region];
+        const Corners corners(region);
+        const double k = stiffness_share * std::pow(surface_area(region), 1.5);
+        const Index first = domain.first[wire.region];
+        for (std::size_t i = 1; i + 1 < wire.vertices.size(); ++i) {
+            const Index a = wire.vertices[i - 1], b = wire.vertices[i], c = wire.vertices[i + 1];
+            const double length = 0.5 * (region.distance(a, b) + region.distance(b, c));
+            bends_.push_back(
+                {{a + first, b + first, c + first}, turn_on_surface(corners, a, b, c), k / length});
+        }
     }
 }
 
-void StiffCurves::add_run(const Domain& domain, std::size_t r, const CurveRun& run) {
-    const Region& region = *domain.regions[r];
-    const Corners corners(region);
-    const double k = stiffness_share * std::pow(surface_area(region), 1.5);
-    for (std::size_t i = 1; i + 1 < run.vertices.size(); ++i) {
-        const Index a = run.vertices[i - 1], b = run.vertices[i], c = run.vertices[i + 1];
-        const double length = 0.5 * (region.distance(a, b) + region.distance(b, c));
-        const Index first = domain.first[r];
-        bends_.push_back(
-            {{a + first, b + first, c + first}, turn_on_surface(corners, a, b, c), k / length});
+std::vector<Triangle> WireStiffness::elements() const {
+    std::vector<Triangle> ascending;
+    for (const Bend& bend : bends_) {
+        ascending.push_back(bend.vertices);
+        std::sort(ascending.back().begin(), ascending.back().end());
     }
+    return ascending;
 }
 
-std::vector<std::pair<Index, Index>> StiffCurves::vertex_pairs() const {
-    std::vector<std::pair<Index, Index>> pairs;
+void WireStiffness::for_hessian(const Eigen::VectorXd& x, HessianKind kind,
+                                const TakeHessian& take) const {
     for (const Bend& bend : bends_)
-        pairs.push_back(std::minmax(bend.vertices[0], bend.vertices[2]));
-    return pairs;
+        take_ascending(bend.vertices, bend_hessian(bend, x, kind), take);
 }
 
-double StiffCurves::value(const Eigen::VectorXd& x) const {
+double WireStiffness::value(const Eigen::VectorXd& x) const {
     double sum = 0.0;
     for (const Bend& bend : bends_) {
         const double excess = between(turn_of(bend.vertices, x).value, bend.turn);
@@ -120,7 +123,7 @@ double StiffCurves::value(const Eigen::VectorXd& x) const {
     return sum;
 }
 
-void StiffCurves::add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const {
+void WireStiffness::add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const {
     for (const Bend& bend : bends_) {
         const Turn turn = turn_of(bend.vertices, x);
         const double moment = bend.stiffness * between(turn.value, bend.turn);
@@ -131,8 +134,7 @@ void StiffCurves::add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradie
     }
 }
 
-StiffCurves::Matrix6 StiffCurves::bend_hessian(const Bend& bend, const Eigen::VectorXd& x,
-                                               HessianKind kind) {
+Matrix6 WireStiffness::bend_hessian(const Bend& bend, const Eigen::VectorXd& x, HessianKind kind) {
     const Turn turn = turn_of(bend.vertices, x);
     Matrix6 hessian = bend.stiffness * turn.gradient * turn.gradient.transpose();
     if (kind == HessianKind::projected) return hessian;

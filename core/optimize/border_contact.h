@@ -1,7 +1,8 @@
 // Borders that must not cross themselves.
 #pragma once
 
-#include "core/parameterize/distortion.h"
+#include "core/optimize/domain.h"
+#include "core/optimize/energy_term.h"
 
 namespace lastflat {
 
@@ -15,16 +16,15 @@ struct ContactPair {
 /// covers a point is the sum of the loops' winding numbers around it. A simple outer loop winds
 /// around its inside once, and a simple hole once the other way, as it did at the start, since to
 /// turn round it would have to cross itself. So no point is covered twice, and no loop meets
-/// another. Border vertices that come nearer
-/// to an edge of their loop than the pair's clearance are pushed away by a pressure that grows
-/// without bound, and no step goes through an edge. What stays apart feels nothing: the clearance
-/// is a hundredth of the mean border edge, but never more than a quarter of the way between both
-/// along the border, nor than half their distance on the last unless they are the two sides of a
-/// slit.
+/// another. Border vertices that come nearer to an edge of their loop than the pair's clearance are
+/// pushed away by a pressure that grows without bound, and no step goes through an edge. What stays
+/// apart feels nothing: the clearance is a hundredth of the mean border edge, but never more than a
+/// quarter of the way between both along the border, nor than half their distance on the surface
+/// unless they are the two sides of a slit.
 ///
 /// Paper: [smith-2015], section 3.3 (barrier, step to the first collision); the barrier's form and
 ///        the lists of near pairs: [li-2020], sections 3 and 4.
-class BorderContact {
+class BorderContact final : public EnergyTerm {
 public:
     /// The domain must outlive the contact.
     explicit BorderContact(const Domain& domain);
@@ -36,32 +36,19 @@ public:
     [[nodiscard]] std::vector<ContactPair> near_pairs(const Eigen::VectorXd& x,
                                                       double multiple = 1.0) const;
 
-    /// The barrier, mm^2: zero if nothing is near, infinite if a border meets itself.
-    [[nodiscard]] double value(const Eigen::VectorXd& x) const;
+    /// The barrier: zero if nothing is near, infinite if a border meets itself.
+    [[nodiscard]] double value(const Eigen::VectorXd& x) const override;
+    void add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const override;
+    [[nodiscard]] std::vector<VertexPair> passing_pairs(const Eigen::VectorXd& x,
+                                                        double reach) const override;
+    void for_hessian(const Eigen::VectorXd& x, HessianKind kind,
+                     const TakeHessian& take) const override;
 
-    void add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const;
-
-    /// Calls add(i, j, value) for every entry of the lower triangle, i and j coordinates.
-    template <class Add>
-    void for_hessian(const Eigen::VectorXd& x, HessianKind kind, const Add& add) const {
-        for (const ContactPair& pair : near_pairs(x)) {
-            const std::array<Index, 3> vertices{pair.a, pair.b, pair.point};
-            const auto hessian = pair_hessian(pair, x, kind);
-            for (Index i = 0; i < 6; ++i) {
-                for (Index j = 0; j < 6; ++j) {
-                    const Index row = 2 * vertices[static_cast<std::size_t>(i / 2)] + i % 2;
-                    const Index column = 2 * vertices[static_cast<std::size_t>(j / 2)] + j % 2;
-                    if (row >= column) add(row, column, hessian(i, j));
-                }
-            }
-        }
-    }
-
-    /// Largest step t <= 1 for which no border vertex on the way from x to x + t d meets an edge.
-    [[nodiscard]] double collision_step(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const;
+    /// Ends before a border vertex meets an edge on the way.
+    [[nodiscard]] double largest_step(const Eigen::VectorXd& x,
+                                      const Eigen::VectorXd& d) const override;
 
 private:
-    using Matrix6 = Eigen::Matrix<double, 6, 6>;
     struct Loop {
         std::vector<Index> vertices;  ///< of the domain; edge i runs from i to its successor
         std::vector<double> along;    ///< per vertex, the way from the first, and one for the end

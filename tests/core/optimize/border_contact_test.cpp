@@ -1,8 +1,9 @@
-#include "core/constrain/border_contact.h"
+#include "core/optimize/border_contact.h"
 
 #include <doctest/doctest.h>
 
 #include "core/measure/report.h"
+#include "tests/helpers/derivatives.h"
 #include "tests/helpers/minimum.h"
 #include "tests/helpers/shapes.h"
 
@@ -28,7 +29,7 @@ Region strip() {
 
 }  // namespace
 
-TEST_SUITE("core/constrain/border_contact") {
+TEST_SUITE("core/optimize/border_contact") {
     TEST_CASE("what stays apart feels nothing") {
         const Region region = strip();
         const Domain domain({&region});
@@ -36,7 +37,7 @@ TEST_SUITE("core/constrain/border_contact") {
         const Eigen::VectorXd x = bent_strip(region, 2.0);
         CHECK(contact.near_pairs(x).empty());
         CHECK(contact.value(x) == 0.0);
-        CHECK(contact.collision_step(x, Eigen::VectorXd::Zero(x.size())) == 1.0);
+        CHECK(contact.largest_step(x, Eigen::VectorXd::Zero(x.size())) == 1.0);
     }
 
     TEST_CASE("gradient and exact Hessian are the derivatives of the barrier") {
@@ -45,28 +46,9 @@ TEST_SUITE("core/constrain/border_contact") {
         const BorderContact contact(domain);
         const Eigen::VectorXd x = bent_strip(region, 0.6 * contact.clearance());
         REQUIRE_FALSE(contact.near_pairs(x).empty());
-        Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
-        contact.add_gradient(x, gradient);
-        CHECK(gradient.norm() > 0.0);
-        Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(x.size(), x.size());
-        contact.for_hessian(x, HessianKind::exact,
-                            [&](Index i, Index j, double value) { hessian(i, j) += value; });
-        const double h = 1e-7;
-        for (Eigen::Index i = 0; i < x.size(); ++i) {
-            Eigen::VectorXd a = x, b = x, at_a = Eigen::VectorXd::Zero(x.size()), at_b = at_a;
-            a[i] -= h;
-            b[i] += h;
-            CHECK((contact.value(b) - contact.value(a)) / (2 * h) ==
-                  doctest::Approx(gradient[i]).epsilon(1e-5).scale(gradient.norm()));
-            contact.add_gradient(a, at_a);
-            contact.add_gradient(b, at_b);
-            for (Eigen::Index j = 0; j < x.size(); ++j) {
-                CHECK((at_b[j] - at_a[j]) / (2 * h) ==
-                      doctest::Approx(hessian(std::max(i, j), std::min(i, j)))
-                          .epsilon(1e-4)
-                          .scale(hessian.norm()));
-            }
-        }
+        test::check_derivatives(contact, x, 1e-7, 1e-4);
+        test::check_elements(contact, x);
+        CHECK(contact.passing_pairs(x, 3.0).size() >= 2 * contact.near_pairs(x).size());
     }
 
     TEST_CASE("a border edge much shorter than the others is left as it is") {
@@ -84,7 +66,7 @@ TEST_SUITE("core/constrain/border_contact") {
         const BorderContact contact(domain);
         const Eigen::VectorXd apart = bent_strip(region, 3.0), across = bent_strip(region, -9.0);
         const Eigen::VectorXd way = across - apart;
-        const double t = contact.collision_step(apart, way);
+        const double t = contact.largest_step(apart, way);
         CHECK(t > 0.1);
         CHECK(t < 0.5);
         const auto crossings = [&](double s) {

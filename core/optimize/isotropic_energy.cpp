@@ -2,7 +2,7 @@
 // 2019; Smith, Schaefer, "Bijective Parameterization with Free Boundaries", SIGGRAPH 2015; Hormann,
 // Greiner, "MIPS: An Efficient Global Parametrization Method", 2000; Maillot, Yahia, Verroust,
 // "Interactive Texture Mapping", SIGGRAPH 1993.
-#include "core/parameterize/isotropic_energy.h"
+#include "core/optimize/isotropic_energy.h"
 
 #include <cmath>
 

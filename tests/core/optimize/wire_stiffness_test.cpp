@@ -1,7 +1,8 @@
-#include "core/constrain/stiff_curves.h"
+#include "core/optimize/wire_stiffness.h"
 
 #include <doctest/doctest.h>
 
+#include "tests/helpers/derivatives.h"
 #include "tests/helpers/minimum.h"
 #include "tests/helpers/shapes.h"
 
@@ -35,45 +36,25 @@ double roughness(const CurveRun& run, const Points2& uv) {
 
 }  // namespace
 
-TEST_SUITE("core/constrain/stiff_curves") {
+TEST_SUITE("core/optimize/wire_stiffness") {
     TEST_CASE("only curves locked by edges are stiff, and an unrolled one costs nothing") {
         const Region region = test::cylinder();
         const Domain domain({&region});
-        CHECK(StiffCurves(domain, {lock("bottom", Keep::total)}).vertex_pairs().empty());
-        const StiffCurves curves(domain, {lock("bottom"), lock("left")});
-        CHECK(curves.vertex_pairs().size() == 22);
+        CHECK(locked_wires(domain, {lock("bottom", Keep::total)}).empty());
+        const WireStiffness wires(domain, locked_wires(domain, {lock("bottom"), lock("left")}));
+        CHECK(wires.elements().size() == 22);
         const Minimum flat = test::minimised(
             region, flatten_fixed_border(region, mean_value_weights, circle_border(region)));
-        CHECK(curves.value(domain.coordinates(flat.charts)) < 1e-12);
-        CHECK(curves.value(bent_chart(region)) > 1e-6);
+        CHECK(wires.value(domain.coordinates(flat.charts)) < 1e-12);
+        CHECK(wires.value(bent_chart(region)) > 1e-6);
     }
 
     TEST_CASE("gradient and exact Hessian are the derivatives of the value") {
         const Region region = test::saddle(4);
         const Domain domain({&region});
-        const StiffCurves curves(domain, {lock("bottom"), lock("right")});
-        const Eigen::VectorXd x = bent_chart(region);
-        Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
-        curves.add_gradient(x, gradient);
-        Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(x.size(), x.size());
-        curves.for_hessian(x, HessianKind::exact,
-                           [&](Index i, Index j, double value) { hessian(i, j) += value; });
-        const double h = 1e-5;
-        for (Eigen::Index i = 0; i < x.size(); ++i) {
-            Eigen::VectorXd a = x, b = x, at_a = Eigen::VectorXd::Zero(x.size()), at_b = at_a;
-            a[i] -= h;
-            b[i] += h;
-            CHECK((curves.value(b) - curves.value(a)) / (2 * h) ==
-                  doctest::Approx(gradient[i]).epsilon(1e-5).scale(gradient.norm()));
-            curves.add_gradient(a, at_a);
-            curves.add_gradient(b, at_b);
-            for (Eigen::Index j = 0; j < x.size(); ++j) {
-                CHECK((at_b[j] - at_a[j]) / (2 * h) ==
-                      doctest::Approx(hessian(std::max(i, j), std::min(i, j)))
-                          .epsilon(1e-5)
-                          .scale(hessian.norm()));
-            }
-        }
+        const WireStiffness wires(domain, locked_wires(domain, {lock("bottom"), lock("right")}));
+        test::check_derivatives(wires, bent_chart(region), 1e-5, 1e-5);
+        test::check_elements(wires, bent_chart(region));
     }
 
     TEST_CASE("a compressed locked curve of short edges stays smooth, and converges at once") {

@@ -1,6 +1,6 @@
 // Based on: Smith, Schaefer, "Bijective Parameterization with Free Boundaries", SIGGRAPH 2015; Li
 // et al., "Incremental Potential Contact", SIGGRAPH 2020.
-#include "core/constrain/border_contact.h"
+#include "core/optimize/border_contact.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -9,6 +9,7 @@
 
 #include "core/numerics/box_tree.h"
 #include "core/numerics/polygon.h"
+#include "core/numerics/quadratic.h"
 
 namespace lastflat {
 namespace {
@@ -18,9 +19,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double clearance_share = 0.01;
 /// Pressure of the barrier, in units of the energy density.
 constexpr double stiffness = 0.1;
-
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// A distance with its derivatives by (a, b, p).
 struct Distance {
@@ -110,12 +108,7 @@ double meeting_time(const std::array<Vec2, 3>& from, const std::array<Vec2, 3>& 
     const Vec2 e = from[1] - from[0], de = motion[1] - motion[0];
     const Vec2 q = from[2] - from[0], dq = motion[2] - motion[0];
     const double a = cross(de, dq), b = cross(de, q) + cross(e, dq), c = cross(e, q);
-    std::array<double, 2> roots{infinity, infinity};
-    const double discriminant = b * b - 4.0 * a * c;
-    if (discriminant < 0.0) return infinity;
-    const double r = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
-    if (a != 0.0) roots[0] = r / a;
-    if (r != 0.0) roots[1] = c / r;
+    auto roots = quadratic_roots(a, b, c);
     std::sort(roots.begin(), roots.end());
     for (const double t : roots) {
         if (!(t >= 0.0 && t <= 1.0)) continue;
@@ -196,7 +189,7 @@ double BorderContact::clearance_of(const Loop& loop, std::size_t vertex, std::si
     const double t = std::clamp((p - a).dot(e) / e.squaredNorm(), 0.0, 1.0);
     const double across = (p - a - t * e).norm();
     double clearance = std::min(clearance_, 0.25 * along);
-    constexpr double slit = 1e-3;  // nearer on the last than this share: two sides of one curve
+    constexpr double slit = 1e-3;  // nearer on the surface than this share: two sides of one curve
     if (across > slit * clearance) clearance = std::min(clearance, 0.5 * across);
     return clearance;
 }
@@ -248,9 +241,8 @@ void BorderContact::add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& grad
     }
 }
 
-BorderContact::Matrix6 BorderContact::pair_hessian(const ContactPair& pair,
-                                                   const Eigen::VectorXd& x,
-                                                   HessianKind kind) const {
+Matrix6 BorderContact::pair_hessian(const ContactPair& pair, const Eigen::VectorXd& x,
+                                    HessianKind kind) const {
     const Distance d = distance_to_edge(point(x, pair.a), point(x, pair.b), point(x, pair.point));
     const Barrier b = barrier(d.value / pair.clearance);
     Matrix6 hessian =
@@ -263,7 +255,22 @@ BorderContact::Matrix6 BorderContact::pair_hessian(const ContactPair& pair,
            eigen.eigenvectors().transpose();
 }
 
-double BorderContact::collision_step(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const {
+std::vector<VertexPair> BorderContact::passing_pairs(const Eigen::VectorXd& x, double reach) const {
+    std::vector<VertexPair> pairs;
+    for (const ContactPair& pair : near_pairs(x, reach)) {
+        pairs.emplace_back(pair.point, pair.a);
+        pairs.emplace_back(pair.point, pair.b);
+    }
+    return pairs;
+}
+
+void BorderContact::for_hessian(const Eigen::VectorXd& x, HessianKind kind,
+                                const TakeHessian& take) const {
+    for (const ContactPair& pair : near_pairs(x))
+        take_ascending({pair.a, pair.b, pair.point}, pair_hessian(pair, x, kind), take);
+}
+
+double BorderContact::largest_step(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const {
     double least = 1.0;
     bool meets = false;
     for_candidates(x, x + d, 0.0, [&](const Loop& loop, std::size_t vertex, std::size_t edge) {

@@ -1,4 +1,4 @@
-#include "core/parameterize/distortion_weights.h"
+#include "core/constrain/distortion_weights.h"
 
 #include <algorithm>
 #include <unordered_set>

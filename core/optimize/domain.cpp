@@ -1,4 +1,4 @@
-#include "core/parameterize/domain.h"
+#include "core/optimize/domain.h"
 
 #include <algorithm>
 

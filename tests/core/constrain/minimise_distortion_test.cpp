@@ -1,4 +1,4 @@
-#include "core/constrain/constrained_newton.h"
+#include "core/constrain/minimise_distortion.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include "core/constrain/scale_to_locks.h"
 #include "core/measure/report.h"
 #include "core/numerics/tolerances.h"
-#include "core/parameterize/distortion.h"
+#include "core/optimize/distortion.h"
 #include "core/parameterize/fixed_border.h"
 #include "core/parameterize/start.h"
 #include "tests/helpers/minimum.h"
@@ -37,7 +37,7 @@ Points2 shadow(const Region& region) {
 
 }  // namespace
 
-TEST_SUITE("core/constrain/constrained_newton") {
+TEST_SUITE("core/constrain/minimise_distortion") {
     TEST_CASE("a flat region keeps its shape") {
         const Region region = test::plane(10);
         CHECK(test::rigid_difference(flattened(region).charts[0].uv, shadow(region)) < 1e-8);

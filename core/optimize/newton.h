@@ -1,0 +1,50 @@
+// Least energy under rows.
+#pragma once
+
+#include "core/optimize/optimality_system.h"
+#include "core/parameterize/chart.h"
+
+namespace lastflat {
+
+/// A map of a greater mean density is far from any isometry.
+inline constexpr double near_isometry = 1.05;
+
+/// When a search may end before its minimum.
+struct Approach {
+    double enough = 0.0;    ///< mean density below which it does
+    double decrease = 0.0;  ///< share of the distortion below which a step promises too little
+};
+
+struct Minimum {
+    std::vector<Chart> charts;    ///< one per region
+    Eigen::VectorXd multipliers;  ///< per row, mm
+    int iterations = 0;           ///< Newton steps
+    int factorizations = 0;
+    double energy = 0.0;              ///< mean density over the surface
+    double projected_gradient = 0.0;  ///< of the mean density, per mm of a point's way, times the
+                                      ///< square root of the area: no unit
+    double worst_error = 0.0;  ///< of a row that is kept exactly, as a share of its reference
+    bool converged = false;
+    bool contradictory = false;  ///< it ended because the rows seem to contradict each other
+    Eigen::VectorXd errors;      ///< per row, mm
+};
+
+/// Minimises distortion and other terms subject to rows: sequential quadratic programming with
+/// projected Newton Hessians, exact ones near the end, a step that no triangle survives flipped,
+/// and a line search on the energy plus the weighted errors of the rows.
+///
+/// Paper:  [smith-2015], [smith-2019]; the multipliers' system: [vanderbei-1995]; the merit
+///         function and second-order correction: [nocedal-2006], chapters 15 and 18.
+/// In:     coordinates at which the energy is finite, with a multiplier per row: zero, or what a
+///         search before has left; a new system, or one that this problem has left.
+/// Out:    charts without flipped triangles. Converged: the projected gradient is at most
+///         `tolerance::projected_gradient` and every error at most `tolerance::solver_length`; or
+///         no step lowers the energy and the gradient is at most `tolerance::stalled_gradient`; or
+///         the approach has come near enough. One answer for one input, whatever the number of
+///         threads.
+/// Throws: Error{solver_failed}; Error{cancelled}.
+[[nodiscard]] Minimum minimise(const Problem& problem, const Iterate& start,
+                               const Approach& approach, OptimalitySystem& system,
+                               const Progress& progress);
+
+}  // namespace lastflat

@@ -1,0 +1,80 @@
+// The linear system of one constrained Newton step.
+#pragma once
+
+#include <set>
+
+#include "core/numerics/multifrontal_ldlt.h"
+#include "core/numerics/nested_dissection.h"
+#include "core/optimize/active_set.h"
+#include "core/optimize/problem.h"
+#include "core/progress.h"
+
+namespace lastflat {
+
+/// Where a search stands: the points' coordinates and the rows' multipliers.
+struct Iterate {
+    Eigen::VectorXd x, multipliers;
+
+    /// Where nothing is known of the multipliers: zero.
+    [[nodiscard]] static Iterate at(const Eigen::VectorXd& x, const Problem& problem) {
+        return {x, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.rows.size()))};
+    }
+};
+
+/// [H A^T; A -C] [step; multipliers] = [-gradient; -residual], where H is the Hessian of the
+/// Lagrangian, A the gradients of the rows and C their compliance. A row that is not held has a
+/// multiplier of zero. One pattern for all steps; it, its elimination order and the last factor are
+/// the whole of the system, which can be kept for as long as the problem's rows and terms are.
+///
+/// Paper: [vanderbei-1995] (quasi-definite systems), [nocedal-2006], chapter 18.
+class OptimalitySystem {
+public:
+    /// Analyses the problem's pattern, once and then whenever something new is near at the
+    /// iterate; fills the system there and factors it. An exact Hessian that is not positive
+    /// definite along the rows is shifted until it is or, failing that, replaced by the projected
+    /// one.
+    /// Throws: Error{solver_failed} if no shift helps; Error{cancelled}.
+    void factor(const Problem& problem, const Iterate& iterate, const std::vector<Held>& held,
+                HessianKind kind, const Progress& progress);
+
+    /// The same with the exact Hessian, whatever the sign of its curvature. False if it is
+    /// singular.
+    [[nodiscard]] bool factor_exact(const Problem& problem, const Iterate& iterate,
+                                    const std::vector<Held>& held, const Progress& progress);
+
+    /// Solves for (step, multipliers) given both right-hand sides.
+    [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& top,
+                                        const Eigen::VectorXd& bottom) const;
+
+private:
+    using Slots = std::array<Index, 21>;  ///< of an element's lower triangle, row by row
+    void prepare(const Problem& problem, const Eigen::VectorXd& x);
+    void analyse(const Problem& problem);
+    void make_pattern(const VertexGraph& graph, const std::vector<Row>& rows);
+    [[nodiscard]] std::vector<VertexPair> vertex_pairs(const Problem& problem) const;
+    [[nodiscard]] std::vector<UnknownBlock> elimination_blocks(const VertexGraph& graph,
+                                                               const std::vector<Row>& rows) const;
+    /// Returns the mean of the Hessian's diagonal.
+    double fill(const Problem& problem, const Iterate& iterate, const std::vector<Held>& held,
+                HessianKind kind);
+    void add_terms(const Problem& problem, const Eigen::VectorXd& x, HessianKind kind);
+    void add_row(Index unknown, const Row& row, const Eigen::VectorXd& x, double multiplier,
+                 HessianKind kind);
+    void hold_in_place(const Problem& problem, const Eigen::VectorXd& x, double stiffness);
+    void shift_diagonal(double amount);
+    void add_block(Index a, Index b, const Eigen::Matrix2d& block);
+    [[nodiscard]] Slots slots_of(const Triangle& element) const;
+    [[nodiscard]] Index slot(Index row, Index column) const;
+    double& entry(Index row, Index column) { return matrix_.valuePtr()[slot(row, column)]; }
+    double& diagonal(Index i) { return matrix_.valuePtr()[matrix_.outerIndexPtr()[i]]; }
+
+    Points2 positions_;                      ///< for the elimination order
+    std::set<VertexPair> passing_;           ///< of elements that the pattern has room for
+    std::vector<std::vector<Slots>> slots_;  ///< per term, of its elements that are always there
+    SparseMatrix matrix_;                    ///< lower triangle
+    double regularisation_ = 0.0;
+    std::vector<Index> regularised_;  ///< unknowns that have it
+    MultifrontalLdlt solver_;
+};
+
+}  // namespace lastflat
