@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "api/json.h"
+#include "api/problem_of.h"
 #include "api/request_words.h"
 #include "core/constrain/constraint.h"
 #include "core/result.h"

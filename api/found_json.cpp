@@ -1,4 +1,5 @@
 #include "api/json.h"
+#include "api/problem_of.h"
 #include "api/request_json.h"
 #include "core/error.h"
 #include "core/plan/plan.h"
@@ -13,7 +14,7 @@ Json json_of(const lastflat::Repair& repair) {
 }
 
 Json json_of(const lastflat::Warning& warning) {
-    Json json{{"code", warning.code}, {"detail", warning.detail}};
+    Json json{{"code", warning.code}, {"detail", detail_of(warning)}};
     if (warning.position) json["position"] = json_of(*warning.position);
     return json;
 }

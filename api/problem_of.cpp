@@ -2,6 +2,8 @@
 
 #include <new>
 
+#include "api/object_reader.h"
+
 namespace lastflat::api {
 namespace {
 
@@ -22,9 +24,34 @@ ProblemCode code_of(ErrorCode code) {
         case ErrorCode::border_crosses: return "border_crosses";
         case ErrorCode::solver_failed: return "solver_failed";
         case ErrorCode::unsupported_request: return "unsupported_request";
-        case ErrorCode::cancelled: return "canceled";
+        case ErrorCode::canceled: return "canceled";
     }
     return "internal_error";
+}
+
+/// Which field of the request would mend an error at an option, or a warning.
+struct Hint {
+    ErrorCode code;
+    std::string_view pointer;
+    const char* text;
+};
+constexpr Hint hints[] = {
+    {ErrorCode::region_not_disk, "/holes", ", or keep them with \"holes\": \"keep\""},
+    {ErrorCode::region_invalid, "/regions", "; name those that are meant in \"regions\""},
+    {ErrorCode::method_failed, "/method", "; use the method \"isometric\", which never folds"},
+};
+constexpr Word<const char*> warning_hints[] = {
+    {"seam_added", ", or keep it with \"holes\": \"keep\""},
+    {"unit_assumed", ". Send \"units\" to be sure"},
+    {"size_unusual", ". Send \"units\" to be sure"}};
+constexpr char conflict_hint[] = "; leave one out or let it give way (\"on_conflict\": \"relax\")";
+
+std::string hint_for(const Error& error, const std::string& pointer) {
+    if (!error.conflict().empty()) return conflict_hint;
+    for (const Hint& hint : hints) {
+        if (hint.code == error.code() && hint.pointer == pointer) return hint.text;
+    }
+    return {};
 }
 
 std::array<double, 3> wire(const Vec3& p) {
@@ -33,16 +60,29 @@ std::array<double, 3> wire(const Vec3& p) {
 
 }  // namespace
 
+std::string json_pointer(const std::vector<std::string>& path) {
+    std::string pointer;
+    for (const std::string& name : path) pointer = step(pointer, name);
+    return pointer;
+}
+
 Problem problem_of(const Error& error) {
     Problem problem(code_of(error.code()), error.what());
-    problem.pointer = error.option();
+    if (error.option()) {
+        problem.pointer = json_pointer(*error.option());
+        problem.detail += hint_for(error, *problem.pointer);
+    }
     if (error.position()) problem.position = wire(*error.position());
     problem.triangles = error.triangles();
     for (const lastflat::ConflictMember& member : error.conflict()) {
         problem.conflict.push_back(
-            {member.option, member.title, member.off_mm, wire(member.position)});
+            {json_pointer(member.option), member.title, member.off_mm, wire(member.position)});
     }
     return problem;
+}
+
+std::string detail_of(const Warning& warning) {
+    return warning.detail + value_of(warning_hints, warning.code).value_or("");
 }
 
 Refusal refusal_of(const std::exception_ptr& thrown) {

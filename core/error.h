@@ -1,4 +1,4 @@
-// What core throws and what it warns of. One exception type; translated to HTTP in server/ only.
+// What core throws and what it warns of. One exception type; api/ turns it into a problem.
 #pragma once
 
 #include <optional>
@@ -27,22 +27,16 @@ enum class ErrorCode {
     border_crosses,          ///< the flat border crosses itself
     solver_failed,           ///< a linear system could not be solved
     unsupported_request,     ///< an option is out of its range
-    cancelled,               ///< the caller asked to stop
+    canceled,                ///< the caller asked to stop
 };
-
-/// The stable name of a code, as it stands in problem documents.
-[[nodiscard]] std::string_view name(ErrorCode code);
 
 /// One of several constraints that cannot all hold.
 struct ConflictMember {
-    std::string option;  ///< JSON pointer of its place in the options
+    std::vector<std::string> option;  ///< where it stands in the options
     std::string title;
     double off_mm;  ///< at the best compromise
     Vec3 position;  ///< on the last
 };
-
-/// A path of options as a JSON pointer (RFC 6901), such as "/curves/heel/vertices/12".
-[[nodiscard]] std::string json_pointer(const std::vector<std::string>& path);
 
 /// The one exception of core. `what()` says what was found, where, and what would mend it.
 class Error : public std::runtime_error {
@@ -50,7 +44,10 @@ public:
     Error(ErrorCode code, const std::string& detail) : std::runtime_error(detail), code_(code) {}
 
     /// The part of the options that is at fault: {"curves", "heel", "vertices", "12"}.
-    Error& at_option(const std::vector<std::string>& path);
+    Error& at_option(std::vector<std::string> path) {
+        option_ = std::move(path);
+        return *this;
+    }
     /// The place on the last, in mm.
     Error& at_position(const Vec3& position) {
         position_ = position;
@@ -69,8 +66,7 @@ public:
     }
 
     [[nodiscard]] ErrorCode code() const { return code_; }
-    /// As a JSON pointer.
-    [[nodiscard]] const std::optional<std::string>& option() const { return option_; }
+    [[nodiscard]] const std::optional<std::vector<std::string>>& option() const { return option_; }
     [[nodiscard]] const std::optional<Vec3>& position() const { return position_; }
     [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
     /// The smallest set found of constraints that fight.
@@ -78,7 +74,7 @@ public:
 
 private:
     ErrorCode code_;
-    std::optional<std::string> option_;
+    std::optional<std::vector<std::string>> option_;
     std::optional<Vec3> position_;
     std::vector<Triangle> triangles_;
     std::vector<ConflictMember> conflict_;

@@ -34,18 +34,18 @@ public:
     explicit Progress(Observer observer = {}) : observer_(std::move(observer)) {}
 
     /// Says that `stage` has begun and stands at `fraction` in [0, 1] of the whole job.
-    /// Throws: Error{cancelled} if the job was cancelled.
+    /// Throws: Error{canceled} if the job was canceled.
     void reach(Stage stage, double fraction) {
         stage_ = stage;
         fraction_ = fraction;
         check();
         if (observer_) observer_(stage, fraction);
     }
-    /// Throws: Error{cancelled} if the job was cancelled. Called in every long loop.
+    /// Throws: Error{canceled} if the job was canceled. Called in every long loop.
     void check() const {
-        if (cancelled_) throw Error(ErrorCode::cancelled, "the job was cancelled");
+        if (canceled_) throw Error(ErrorCode::canceled, "the job was canceled");
     }
-    void cancel() { cancelled_ = true; }
+    void cancel() { canceled_ = true; }
 
     [[nodiscard]] Stage stage() const { return stage_; }
     [[nodiscard]] double fraction() const { return fraction_; }
@@ -54,7 +54,7 @@ private:
     const Observer observer_;
     std::atomic<Stage> stage_{Stage::load};
     std::atomic<double> fraction_{0.0};
-    std::atomic<bool> cancelled_{false};
+    std::atomic<bool> canceled_{false};
 };
 
 }  // namespace lastflat

@@ -201,13 +201,12 @@ private:
         std::vector<ConflictMember> members;
         std::string names;
         for (const std::size_t c : loop.constraints) {
-            members.push_back({json_pointer(constraints_[c].option), title(constraints_[c]),
-                               loop.gap_mm, loop.position});
+            members.push_back(
+                {constraints_[c].option, title(constraints_[c]), loop.gap_mm, loop.position});
             names += (names.empty() ? "" : ", ") + title(constraints_[c]);
         }
         throw Error(ErrorCode::constraints_infeasible,
-                    names_of(domain_) + ": " + names + " cannot all hold: " + loop.why +
-                        "; leave one out or let it give way (\"on_conflict\": \"relax\")")
+                    names_of(domain_) + ": " + names + " cannot all hold: " + loop.why)
             .at_option(constraints_[loop.constraints.front()].option)
             .at_position(loop.position)
             .with_conflict(std::move(members));
@@ -230,7 +229,7 @@ private:
                     names_of(domain_) +
                         ": these constraints cannot all hold; at the best compromise they are off "
                         "by: " +
-                        text + "; leave one out or let it give way (\"on_conflict\": \"relax\")")
+                        text)
             .at_option(constraints_[fighting.front()].option)
             .at_position(first)
             .with_conflict(std::move(members));
@@ -239,8 +238,7 @@ private:
     /// How far a constraint is off at the best compromise, and where most.
     [[nodiscard]] ConflictMember member(std::size_t c, const std::vector<Role>& roles,
                                         const Minimum& best) const {
-        ConflictMember result{json_pointer(constraints_[c].option), title(constraints_[c]), 0.0,
-                              Vec3::Zero()};
+        ConflictMember result{constraints_[c].option, title(constraints_[c]), 0.0, Vec3::Zero()};
         Eigen::Index i = 0;
         double worst = -1.0;
         for (const std::size_t k : chosen_rows(roles)) {

@@ -136,7 +136,7 @@ Index chosen_piece(const SurfaceMesh& surface, const Pieces& pieces, const Regio
     if (!choice.inside) {
         if (pieces.count == 1) return 0;
         fail_choice(choice, "the cuts leave " + std::to_string(pieces.count) +
-                                " pieces; say which is meant with \"contains\"");
+                                " pieces; say which is meant by a point on it");
     }
     Index vertex = -1;
     if (const auto* position = std::get_if<Vec3>(&*choice.inside)) {
@@ -211,8 +211,7 @@ std::vector<Region> cut_into_regions(const SurfaceMesh& surface, const Curves& c
     if (choices.empty()) {
         if (pieces.count > max_default_regions) {
             throw Error(ErrorCode::region_invalid,
-                        "the surface falls into " + std::to_string(pieces.count) +
-                            " pieces; name those that are meant in \"regions\"")
+                        "the surface falls into " + std::to_string(pieces.count) + " pieces")
                 .at_option({"regions"});
         }
         for (Index piece = 0; piece < pieces.count; ++piece) {

@@ -66,7 +66,7 @@ Warning seam_warning(const Region& region, const HoleSeam& seam, const std::stri
                 " degrees of curvature and is opened along " +
                 (seam.curve.empty() ? "the new seam '" : "the curve '") + name + "', " +
                 std::to_string(std::lround(seam.length)) + " mm long, by " + place(seam.position) +
-                "; cut it where it suits you, or keep it with \"holes\": \"keep\"",
+                "; cut it where it suits you",
             seam.position};
 }
 
@@ -81,8 +81,7 @@ public:
             if (made_.size() > most_made_seams)
                 throw Error(ErrorCode::region_not_disk,
                             "more than " + std::to_string(most_made_seams) +
-                                " holes would have to be opened; mend the model, or keep them with "
-                                "\"holes\": \"keep\"")
+                                " holes would have to be opened; mend the model")
                     .at_option({"holes"});
         }
     }

@@ -34,7 +34,7 @@ struct HoleSeam {
 /// heel, by the shortest path from the outermost vertex there. Any other hole is opened by the
 /// shortest path from that vertex of the outer loop that is nearest along edges.
 ///
-/// Throws: Error{cancelled}.
+/// Throws: Error{canceled}.
 [[nodiscard]] std::vector<HoleSeam> seams_of_next_hole(const Region& region, HoleRule rule,
                                                        bool is_first, const Progress& progress);
 

@@ -22,7 +22,7 @@ struct GeodesicCentre {
 ///         better.
 /// Out:    exact up to `tolerance::geodesic_round_off`; of equal vertices the smallest id that is
 ///         tried first.
-/// Throws: Error{cancelled}; Error{solver_failed} as the distances do, or if the centre is not
+/// Throws: Error{canceled}; Error{solver_failed} as the distances do, or if the centre is not
 /// found
 ///         in 64 runs: on tubes of perfect symmetry a whole ring of vertices ties.
 [[nodiscard]] GeodesicCentre geodesic_centre(const Region& region, const ExactGeodesics& geodesics,

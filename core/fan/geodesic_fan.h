@@ -27,7 +27,7 @@ struct GeodesicFan {
 /// Paper:  [kim-kim], sections 3.1 and 3.4; A_n: [hilaga-2001], integrated over the triangles with
 ///         the distance taken as linear on each.
 /// In:     whether the spokes keep their paths, up to four million points in all.
-/// Throws: Error{cancelled}; Error{solver_failed} as its parts do.
+/// Throws: Error{canceled}; Error{solver_failed} as its parts do.
 [[nodiscard]] GeodesicFan geodesic_fan(const Region& region, bool keep_paths,
                                        const Progress& progress);
 

@@ -39,7 +39,7 @@ public:
     explicit ExactGeodesics(const Triangulation& surface, std::size_t windows_per_half_edge = 500);
     explicit ExactGeodesics(Unfolding unfolding, std::size_t windows_per_half_edge = 500);
 
-    /// Throws: Error{cancelled}; Error{solver_failed} if a run would make too many windows, or
+    /// Throws: Error{canceled}; Error{solver_failed} if a run would make too many windows, or
     /// if round-off in a row of nearly flat vertices hides one from all of them.
     [[nodiscard]] GeodesicDistances from_vertex(Index vertex, const Progress& progress) const;
 

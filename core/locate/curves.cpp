@@ -145,7 +145,7 @@ private:
         };
         const auto point = std::find_if(points_.begin(), points_.end(),
                                         [&](const PointSource& p) { return p.name == name; });
-        if (point == points_.end()) fail("there is no point '" + name + "' in \"points\"");
+        if (point == points_.end()) fail("there is no point '" + name + "'");
         if (const auto* position = std::get_if<Vec3>(&point->location)) {
             SurfacePlace place = on_surface(*position, fail);
             if (item == 0 || item == last) snap(place);

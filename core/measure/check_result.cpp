@@ -36,11 +36,10 @@ void check_result(const Region& region, const Points2& uv, MethodName method,
                   const Metrics& metrics, std::vector<Warning>& warnings) {
     if (metrics.flipped_triangles > 0) {
         const auto flipped = flipped_triangles(region, uv);
-        throw Error(ErrorCode::method_failed,
-                    "region '" + region.name + "': the map folds, " +
-                        std::to_string(metrics.flipped_triangles) + " triangles are flipped," +
-                        first_places(region, flipped) +
-                        "; use the method \"isometric\", which never folds")
+        throw Error(ErrorCode::method_failed, "region '" + region.name + "': the map folds, " +
+                                                  std::to_string(metrics.flipped_triangles) +
+                                                  " triangles are flipped," +
+                                                  first_places(region, flipped))
             .at_option({"method"})
             .at_position(
                 region.position(region.triangles[static_cast<std::size_t>(flipped.front())][0]))

@@ -29,7 +29,7 @@ public:
 
     /// Factors a matrix of the analysed pattern. False if a pivot vanishes.
     /// The answer does not depend on `threads`.
-    /// Throws: Error{cancelled}.
+    /// Throws: Error{canceled}.
     [[nodiscard]] bool factor(const SparseMatrix& lower, const Progress& progress,
                               std::size_t threads = 1);
 

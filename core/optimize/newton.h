@@ -42,7 +42,7 @@ struct Minimum {
 ///         no step lowers the energy and the gradient is at most `tolerance::stalled_gradient`; or
 ///         the approach has come near enough. One answer for one input, whatever the number of
 ///         threads.
-/// Throws: Error{solver_failed}; Error{cancelled}.
+/// Throws: Error{solver_failed}; Error{canceled}.
 [[nodiscard]] Minimum minimise(const Problem& problem, const Iterate& start,
                                const Approach& approach, OptimalitySystem& system,
                                const Progress& progress);

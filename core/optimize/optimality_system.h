@@ -33,7 +33,7 @@ public:
     /// iterate; fills the system there and factors it. An exact Hessian that is not positive
     /// definite along the rows is shifted until it is or, failing that, replaced by the projected
     /// one.
-    /// Throws: Error{solver_failed} if no shift helps; Error{cancelled}.
+    /// Throws: Error{solver_failed} if no shift helps; Error{canceled}.
     void factor(const Problem& problem, const Iterate& iterate, const std::vector<Held>& held,
                 HessianKind kind, const Progress& progress);
 

@@ -34,14 +34,14 @@ UnitGuess guess_unit(const RawMesh& raw) {
                 Warning{"unit_assumed",
                         "the request gives no units; the model is " + general_text(length, 4) +
                             " units long, so they were taken as " + name + " (" +
-                            general_text(unit * length, 4) + " mm). Send \"units\" to be sure",
+                            general_text(unit * length, 4) + " mm)",
                         std::nullopt}};
     }
     return {raw.default_unit_mm,
             Warning{"size_unusual",
                     "the model is " + general_text(raw.default_unit_mm * length, 4) +
                         " mm long if its units are those of its format; a last is 150 to 350 mm "
-                        "long, and no unit makes it so. Send \"units\" to be sure",
+                        "long, and no unit makes it so",
                     std::nullopt}};
 }
 

@@ -78,6 +78,28 @@ TEST_SUITE("api/problem_of") {
         CHECK(problem.triangles.size() == 1);
     }
 
+    TEST_CASE(
+        "where a field of the request would mend it, a hint says so in the words of the wire") {
+        const auto detail = [](ErrorCode code, const std::vector<std::string>& option) {
+            return problem_of_thrown(Error(code, "so").at_option(option)).detail;
+        };
+        CHECK(detail(ErrorCode::method_failed, {"method"}) ==
+              "so; use the method \"isometric\", which never folds");
+        CHECK(detail(ErrorCode::method_failed, {"constraints"}) == "so");
+        CHECK(detail(ErrorCode::region_invalid, {"regions"}) ==
+              "so; name those that are meant in \"regions\"");
+        CHECK(detail(ErrorCode::region_invalid, {"regions", "lateral"}) == "so");
+        Error fight(ErrorCode::constraints_infeasible, "they fight");
+        fight.at_option({"locks", "0"}).with_conflict({{{"locks", "0"}, "lock", 0.5, {1, 2, 3}}});
+        const Problem problem = problem_of_thrown(fight);
+        CHECK(problem.detail ==
+              "they fight; leave one out or let it give way (\"on_conflict\": \"relax\")");
+        CHECK(problem.conflict.at(0).pointer == "/locks/0");
+        CHECK(detail_of({"unit_assumed", "taken as mm", {}}) ==
+              "taken as mm. Send \"units\" to be sure");
+        CHECK(detail_of({"no_fan", "none", {}}) == "none");
+    }
+
     TEST_CASE("a refusal keeps its problem, whatever it tells the operator") {
         const Problem problem =
             problem_of_thrown(Refusal(Problem("store_unavailable", "later"), "/data: disk full"));

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "api/problem_of.h"
 #include "core/error.h"
 #include "core/load/load_model.h"
 
@@ -14,8 +15,9 @@ std::string error_of(const Call& call) {
     try {
         call();
     } catch (const Error& error) {
-        const std::string option = error.option() ? " " + *error.option() : "";
-        return std::string(name(error.code())) + option + ": " + error.what();
+        const api::Problem problem = api::problem_of(error);
+        const std::string option = problem.pointer ? " " + *problem.pointer : "";
+        return std::string(problem.code.word()) + option + ": " + problem.detail;
     }
     return "no error";
 }

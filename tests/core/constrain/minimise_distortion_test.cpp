@@ -169,7 +169,7 @@ TEST_SUITE("core/constrain/minimise_distortion") {
         CHECK(test::rigid_difference(expected, back) < 1e-7);
     }
 
-    TEST_CASE("a cancelled job stops") {
+    TEST_CASE("a canceled job stops") {
         Progress progress;
         progress.cancel();
         const Region region = test::dome();

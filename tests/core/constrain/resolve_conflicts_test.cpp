@@ -49,8 +49,8 @@ TEST_SUITE("core/constrain/resolve_conflicts") {
         } catch (const Error& error) {
             CHECK(error.code() == ErrorCode::constraints_infeasible);
             REQUIRE(error.conflict().size() == 2);
-            CHECK(error.conflict()[0].option == "/constraints/1");
-            CHECK(error.conflict()[1].option == "/constraints/2");
+            CHECK(error.conflict()[0].option[1] == "1");
+            CHECK(error.conflict()[1].option[1] == "2");
             CHECK(error.conflict()[1].off_mm < 0.0);
         }
     }

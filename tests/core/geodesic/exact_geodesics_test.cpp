@@ -164,7 +164,7 @@ TEST_SUITE("core/geodesic/exact_geodesics") {
         CHECK_NOTHROW((void)ExactGeodesics(region).from_vertex(400, Progress()));
     }
 
-    TEST_CASE("a cancelled run stops") {
+    TEST_CASE("a canceled run stops") {
         Progress progress;
         progress.cancel();
         const Region region = test::dome(40, 1.0);

@@ -130,7 +130,7 @@ TEST_SUITE("core/numerics/multifrontal_ldlt") {
         CHECK_FALSE(solver.factor(A, Progress()));
     }
 
-    TEST_CASE("a cancelled factorization stops") {
+    TEST_CASE("a canceled factorization stops") {
         const Grid g = grid(5);
         const SparseMatrix A = quasi_definite(g, 0);
         MultifrontalLdlt solver;

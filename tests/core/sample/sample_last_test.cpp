@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/problem_of.h"
 #include "core/error.h"
 
 using namespace lastflat;
@@ -540,7 +541,7 @@ TEST_SUITE("core/sample/sample_last") {
                 (void)make_sample_last(options);
             } catch (const Error& error) {
                 CHECK(error.code() == ErrorCode::unsupported_request);
-                return error.option().value_or("");
+                return api::json_pointer(error.option().value());
             }
             return "nothing";
         };
