@@ -1,7 +1,7 @@
 #include "core/constrain/refine.h"
 
-#include "core/constrain/scale_to_locks.h"
 #include "core/constrain/distortion_weights.h"
+#include "core/constrain/scale_to_locks.h"
 
 namespace lastflat {
 namespace {

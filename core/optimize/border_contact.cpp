@@ -14,7 +14,6 @@
 namespace lastflat {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Of the mean border edge.
 constexpr double clearance_share = 0.01;
 /// Pressure of the barrier, in units of the energy density.

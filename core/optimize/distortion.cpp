@@ -16,8 +16,6 @@
 namespace lastflat {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// The triangle's edges from its first vertex, in its own plane, first edge along x.
 Eigen::Matrix2d rest_edges(const Region& region, const Triangle& t) {
     const Vec3 a = region.position(t[1]) - region.position(t[0]);

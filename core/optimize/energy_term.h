@@ -2,10 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 
 #include "core/numerics/types.h"
 
 namespace lastflat {
+
+/// The energy where the points must never be.
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// How Hessians of single elements enter the sum.
 enum class HessianKind {

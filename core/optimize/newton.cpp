@@ -229,7 +229,7 @@ State solve_conditions(const Problem& problem, OptimalitySystem& system, const A
 
 /// How long the errors have not fallen by much.
 struct ErrorWatch {
-    double least = std::numeric_limits<double>::infinity();
+    double least = infinity;
     int since = 0;
 
     /// Whether the rows seem to contradict each other after a step.
@@ -237,7 +237,7 @@ struct ErrorWatch {
                                            int iteration) {
         const double error = step.state.is.worst_error;
         if (error <= tolerance::locked_length) {
-            *this = {std::numeric_limits<double>::infinity(), iteration};
+            *this = {infinity, iteration};
             return false;
         }
         if (error < 0.9 * least) *this = {error, iteration};

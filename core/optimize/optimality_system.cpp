@@ -321,7 +321,7 @@ Eigen::VectorXd OptimalitySystem::solve(const Eigen::VectorXd& top,
     // soft row says nearly the same as exact ones.
     constexpr int most_steps = 4;
     constexpr double enough = 1e-12;
-    double before = std::numeric_limits<double>::infinity();
+    double before = infinity;
     for (int step = 0; step < most_steps; ++step) {
         Eigen::VectorXd rest = right - matrix_.selfadjointView<Eigen::Lower>() * solution;
         for (const Index row : regularised_) rest[row] -= regularisation_ * solution[row];

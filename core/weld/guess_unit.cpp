@@ -30,12 +30,11 @@ UnitGuess guess_unit(const RawMesh& raw) {
         {{"mm", 1.0}, {"cm", 10.0}, {"m", 1000.0}, {"in", 25.4}}};
     for (const auto& [name, unit] : units) {
         if (!is_last(unit)) continue;
-        return {unit,
-                Warning{"unit_assumed",
-                        "the request gives no units; the model is " + general_text(length, 4) +
-                            " units long, so they were taken as " + name + " (" +
-                            general_text(unit * length, 4) + " mm)",
-                        std::nullopt}};
+        return {unit, Warning{"unit_assumed",
+                              "the request gives no units; the model is " +
+                                  general_text(length, 4) + " units long, so they were taken as " +
+                                  name + " (" + general_text(unit * length, 4) + " mm)",
+                              std::nullopt}};
     }
     return {raw.default_unit_mm,
             Warning{"size_unusual",

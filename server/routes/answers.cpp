@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <new>
 
 #include "api/problem_of.h"
 #include "server/support/log.h"
@@ -25,6 +26,17 @@ std::string_view opaque(std::string_view tag) {
     return tag.substr(0, 2) == "W/" ? tag.substr(2) : tag;
 }
 
+/// The service's own memory, not a worker's.
+bool is_out_of_memory(const std::exception_ptr& thrown) {
+    try {
+        std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+        return true;
+    } catch (...) {
+        return false;
+    }
+}
+
 }  // namespace
 
 http::Response json_response(int status, std::string body) {
@@ -44,7 +56,7 @@ http::Response empty_response(int status) {
 
 api::Refusal refusal_to(const http::Request& request, const std::exception_ptr& thrown) {
     api::Refusal refusal = api::refusal_of(thrown);
-    if (!(refusal.problem().code == "internal_error")) return refusal;
+    if (!(refusal.problem().code == "internal_error") && !is_out_of_memory(thrown)) return refusal;
     log_event("request_failed",
               {{"request", request.id}, {"path", request.path}, {"why", refusal.what()}});
     return {"internal_error", "The server failed to answer. The fault is not in the request."};

@@ -95,9 +95,9 @@ TEST_SUITE("api/problem_of") {
         CHECK(problem.detail ==
               "they fight; leave one out or let it give way (\"on_conflict\": \"relax\")");
         CHECK(problem.conflict.at(0).pointer == "/locks/0");
-        CHECK(detail_of({"unit_assumed", "taken as mm", {}}) ==
+        CHECK(detail_of(Warning{"unit_assumed", "taken as mm", {}}) ==
               "taken as mm. Send \"units\" to be sure");
-        CHECK(detail_of({"no_fan", "none", {}}) == "none");
+        CHECK(detail_of(Warning{"no_fan", "none", {}}) == "none");
     }
 
     TEST_CASE("a refusal keeps its problem, whatever it tells the operator") {

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "core/measure/report.h"
 #include "core/constrain/distortion_weights.h"
+#include "core/measure/report.h"
 #include "tests/helpers/minimum.h"
 #include "tests/helpers/shapes.h"
 

@@ -25,7 +25,7 @@ HalfEdges annulus() {
     return half_edges_of(6, {{0, 1, 4}, {4, 3, 0}, {1, 2, 5}, {5, 4, 1}, {2, 0, 3}, {3, 5, 2}});
 }
 
-HalfEdges tetrahedron() {
+HalfEdges of_tetrahedron() {
     return half_edges_of(4, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
 }
 
@@ -65,10 +65,10 @@ TEST_SUITE("core/numerics/half_edges") {
 
     TEST_CASE("the ring of an inner vertex is closed and begins at its smallest neighbour") {
         CHECK(hexagon().ring(6) == Vertices{0, 1, 2, 3, 4, 5});
-        CHECK(tetrahedron().ring(3) == Vertices{0, 1, 2});
-        CHECK(tetrahedron().ring(0) == Vertices{1, 3, 2});
+        CHECK(of_tetrahedron().ring(3) == Vertices{0, 1, 2});
+        CHECK(of_tetrahedron().ring(0) == Vertices{1, 3, 2});
         // The fan begins with the first triangle that names the vertex.
-        CHECK(fan(tetrahedron(), 0) == Vertices{2, 1, 3});
+        CHECK(fan(of_tetrahedron(), 0) == Vertices{2, 1, 3});
     }
 
     TEST_CASE("the ring of a border vertex runs from its successor to its predecessor") {
@@ -90,7 +90,7 @@ TEST_SUITE("core/numerics/half_edges") {
     TEST_CASE("border loops keep the surface on their left and begin at their smallest vertex") {
         CHECK(hexagon().border_loops() == std::vector<Vertices>{{0, 1, 2, 3, 4, 5}});
         CHECK(annulus().border_loops() == std::vector<Vertices>{{0, 1, 2}, {3, 5, 4}});
-        CHECK(tetrahedron().border_loops().empty());
+        CHECK(of_tetrahedron().border_loops().empty());
         CHECK(half_edges_of(6, {{5, 3, 4}, {0, 1, 2}}).border_loops() ==
               std::vector<Vertices>{{0, 1, 2}, {3, 4, 5}});
     }

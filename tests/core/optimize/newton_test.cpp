@@ -8,7 +8,7 @@ namespace lastflat {
 namespace {
 
 /// A wavy square seen from above: no triangle is flipped.
-Eigen::VectorXd shadow(const Region& region) {
+Eigen::VectorXd seen_from_above(const Region& region) {
     Eigen::VectorXd x(2 * static_cast<Eigen::Index>(region.positions.size()));
     for (std::size_t v = 0; v < region.positions.size(); ++v)
         x.segment<2>(2 * static_cast<Eigen::Index>(v)) = region.positions[v].head<2>();
@@ -40,7 +40,7 @@ TEST_SUITE("core/optimize/newton") {
     TEST_CASE("rows that are kept cost energy, and are kept") {
         Square square;
         OptimalitySystem system, free_system;
-        const Iterate start = Iterate::at(shadow(square.region), square.problem);
+        const Iterate start = Iterate::at(seen_from_above(square.region), square.problem);
         const Minimum minimum = minimise(square.problem, start, {}, system, Progress());
         CHECK(minimum.converged);
         CHECK(minimum.worst_error < 1e-10);
@@ -52,8 +52,8 @@ TEST_SUITE("core/optimize/newton") {
         Square square;
         OptimalitySystem system;
         const Minimum first =
-            minimise(square.problem, Iterate::at(shadow(square.region), square.problem), {}, system,
-                     Progress());
+            minimise(square.problem, Iterate::at(seen_from_above(square.region), square.problem),
+                     {}, system, Progress());
         REQUIRE(first.iterations > 2);
         const Eigen::VectorXd x = square.domain.coordinates(first.charts);
         const Minimum again =
@@ -75,7 +75,7 @@ TEST_SUITE("core/optimize/newton") {
     TEST_CASE("an approach ends as soon as it is near enough") {
         Square square;
         OptimalitySystem system;
-        Eigen::VectorXd far = 3.0 * shadow(square.region);
+        Eigen::VectorXd far = 3.0 * seen_from_above(square.region);
         const Minimum near = minimise(square.problem, Iterate::at(far, square.problem),
                                       {near_isometry, 0.0}, system, Progress());
         CHECK(near.converged);
@@ -90,7 +90,7 @@ TEST_SUITE("core/optimize/newton") {
         rows[0].least *= 0.5;
         rows[0].most *= 2.0;
         OptimalitySystem system, bound_system;
-        const Iterate start = Iterate::at(shadow(square.region), square.problem);
+        const Iterate start = Iterate::at(seen_from_above(square.region), square.problem);
         const Minimum wide = minimise(square.problem, start, {}, system, Progress());
         CHECK(wide.multipliers[0] == 0.0);
         const double reached = rows[0].value(square.domain.coordinates(wide.charts));

@@ -7,6 +7,7 @@
 
 #include "server/http/refusal.h"
 
+using namespace lastflat;
 using namespace lastflat::http;
 
 namespace {

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "server/jobs/refusal.h"
+#include "api/refusal.h"
 #include "server/storage/sqlite_accounts.h"
 #include "server/support/clock.h"
 #include "server/support/crypto.h"
@@ -32,14 +32,14 @@ struct IntakeSetting : test::TestStore {
     std::string code_of(const Submission& submission) {
         try {
             (void)intake.submit(submission);
-        } catch (const Refusal& refusal) {
-            return refusal.problem().code;
+        } catch (const api::Refusal& refusal) {
+            return std::string(refusal.problem().code.word());
         }
         return "taken";
     }
 };
 
-Submission submission_of(const std::string& model, const std::string& key = "") {
+Submission submission_of(std::string_view model, const std::string& key = "") {
     Submission submission;
     submission.model = model;
     submission.request = "{}";
@@ -139,7 +139,7 @@ TEST_SUITE("server/jobs/job_intake") {
         CHECK(full.code_of(submission_of("a")) == "storage_full");
         IntakeSetting quiet;
         Submission hooked = submission_of("a");
-        hooked.webhook = JobWebhook{"https://example.com/", "whsec_", "job.failed"};
+        hooked.webhook = api::WebhookRequest{"https://example.com/", {JobState::failed}, "whsec_"};
         CHECK(quiet.code_of(hooked) == "webhooks_off");
         for (IntakeSetting* s : {&ends, &full, &quiet}) {
             CHECK(s->blobs.all().empty());

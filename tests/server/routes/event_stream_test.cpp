@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/routes/answers.h"
 #include "server/support/crypto.h"
 #include "tests/server/jobs/memory_blobs.h"
 #include "tests/server/storage/test_store.h"
@@ -67,12 +68,20 @@ struct Watcher {
     }
 };
 
+http::Response answer(StreamSetting& s, const http::Request& request) {
+    try {
+        return s.handler(request);
+    } catch (...) {
+        return answer_to(request, std::current_exception());
+    }
+}
+
 int status_of(StreamSetting& s, const http::Request& request) {
-    return s.handler(request).status;
+    return answer(s, request).status;
 }
 
 std::string code_of(StreamSetting& s, const http::Request& request) {
-    return nlohmann::json::parse(*s.handler(request).body).at("code");
+    return nlohmann::json::parse(*answer(s, request).body).at("code");
 }
 
 /// The events' names in order, with what follows "field": in the data of each.
@@ -97,11 +106,8 @@ std::int64_t last_id(const std::string& stream) {
 }
 
 /// A result that says no more than its metrics.
-JobOutcome result_with(const BlobStore& blobs, const std::string& metrics) {
-    JobOutcome outcome;
-    outcome.result = blobs.put(metrics);
-    outcome.parts = {{"metrics", false, 0, metrics.size(), sha256(metrics)}};
-    return outcome;
+JobEnd result_with(const BlobStore& blobs, const std::string& metrics) {
+    return Succeeded{blobs.put(metrics), {{"metrics", false, 0, metrics.size(), sha256(metrics)}}};
 }
 
 constexpr char quiet_metrics[] = R"({"repairs": [], "warnings": []})";

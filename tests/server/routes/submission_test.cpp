@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/object_reader.h"
-#include "server/jobs/refusal.h"
+#include "api/refusal.h"
 
 namespace lastflat::server {
 namespace {
@@ -51,10 +51,10 @@ http::Request request_of(const Plain& plain) {
 std::string fault_of(const Plain& plain) {
     try {
         (void)read_submission(request_of(plain));
-    } catch (const Refusal& refusal) {
-        return refusal.problem().code;
     } catch (const api::InvalidRequest& invalid) {
         return invalid.pointer();
+    } catch (const api::Refusal& refusal) {
+        return std::string(refusal.problem().code.word());
     }
     return "taken";
 }

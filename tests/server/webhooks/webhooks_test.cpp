@@ -129,7 +129,7 @@ TEST_SUITE("server/webhooks/dispatcher") {
         test::TestStore s;
         SqliteWebhooks webhooks(s.database);
         NewJob job = test::new_job("A", "key");
-        job.webhook = JobWebhook{"http://example.com/", "whsec_", "job.canceled"};
+        job.webhook = api::WebhookRequest{"http://example.com/", {JobState::canceled}, "whsec_"};
         REQUIRE(s.add(job) == Admission::queued);
         REQUIRE(s.add(job) == Admission::repeated);
         REQUIRE(s.add(test::new_job("B", "key")) == Admission::queued);
@@ -149,7 +149,7 @@ TEST_SUITE("server/webhooks/dispatcher") {
         SqliteWebhooks webhooks(s.database);
         webhooks.add(webhook("A", "key", "job.failed"));
         NewJob job = test::new_job("A", "another key");
-        job.webhook = JobWebhook{"http://example.com/", "whsec_", "job.failed"};
+        job.webhook = api::WebhookRequest{"http://example.com/", {JobState::failed}, "whsec_"};
         CHECK(s.add(job) == Admission::id_taken);
         job.webhook.reset();
         REQUIRE(s.add(job) == Admission::queued);
