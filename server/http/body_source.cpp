@@ -11,7 +11,7 @@
 namespace lastflat::http {
 namespace {
 
-constexpr std::size_t read_step = 64u << 10;
+constexpr std::size_t body_step = 64u << 10;
 
 /// How many raw bytes a chunked body may have: framing may add a sixteenth, and a small body of
 /// tiny chunks more.
@@ -50,7 +50,7 @@ void BodySource::read_known_length(Buffer& body) {
         left_ -= got;
         take(got);
         if (left_ == 0) return;
-        const std::size_t step = std::min<std::uint64_t>(left_, read_step);
+        const std::size_t step = std::min<std::uint64_t>(left_, body_step);
         got = receive(body.end_with_room(step), step);
         body.add(got);
     }
@@ -75,7 +75,7 @@ void BodySource::read_chunks(Buffer& body) {
                 "the data, CR LF; the last has size 0 and no trailers follow.");
         }
         if (framing_.complete()) return;
-        arrived_.resize(read_step);
+        arrived_.resize(body_step);
         used_ = 0;
         arrived_.resize(receive(arrived_.data(), arrived_.size()));
     }
