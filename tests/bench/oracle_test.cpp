@@ -7,8 +7,10 @@
 #include <iostream>
 
 #include "core/border/convex_border.h"
+#include "core/cut/cut.h"
 #include "core/cut/insert_curves.h"
 #include "core/geodesic/exact_geodesics.h"
+#include "core/load/load_model.h"
 #include "core/parameterize/fixed_border.h"
 #include "core/weld/weld.h"
 #include "tests/bench/peers.h"
@@ -90,10 +92,10 @@ TEST_SUITE("oracle") {
         std::vector<CurveSource> curves;
         const auto count = static_cast<Index>(whole.positions.size());
         for (Index i = 0; i < 6; ++i) {
-            points.push_back({"from" + std::to_string(i), (count / 7 * i + 11) % count, {}});
-            points.push_back({"to" + std::to_string(i), (count / 5 * i + count / 2) % count, {}});
-            curves.push_back({"curve" + std::to_string(i)});
-            curves.back().through = {points[points.size() - 2].name, points.back().name};
+            const std::string number = std::to_string(i);
+            points.push_back({"from" + number, (count / 7 * i + 11) % count});
+            points.push_back({"to" + number, (count / 5 * i + count / 2) % count});
+            curves.push_back({"curve" + number, ShortestPath{{"from" + number, "to" + number}}});
         }
         const auto inserted = insert_curves(surface, locate_curves(surface, curves, points)).curves;
         for (std::size_t i = 0; i < inserted.size(); ++i) {
@@ -101,8 +103,9 @@ TEST_SUITE("oracle") {
             const auto& path = inserted[i].vertices;
             for (std::size_t k = 1; k < path.size(); ++k)
                 length += (surface.position(path[k]) - surface.position(path[k - 1])).norm();
-            const double theirs = cgal.distances_from(
-                *points[2 * i].vertex)[static_cast<std::size_t>(*points[2 * i + 1].vertex)];
+            const Index from = std::get<Index>(points[2 * i].location);
+            const Index to = std::get<Index>(points[2 * i + 1].location);
+            const double theirs = cgal.distances_from(from)[at(to)];
             CHECK(length == doctest::Approx(theirs).epsilon(1e-9));
         }
     }

@@ -5,6 +5,9 @@
 
 #include "api/flatten_request.h"
 #include "api/object_reader.h"
+#include "core/cut/cut.h"
+#include "core/load/load_model.h"
+#include "core/weld/weld.h"
 #include "tests/bench/bench.h"
 #include "tests/helpers/face.h"
 #include "tests/helpers/sample.h"
@@ -66,7 +69,7 @@ void add_folder(const char* variable, std::vector<Subject>& subjects) {
 std::vector<Subject> subjects(const std::string& only) {
     std::vector<Subject> all;
     const SampleLast last = make_sample_last();
-    add_regions("sample last", write_model_obj(last.mesh), test::sample_options(last), all);
+    add_regions("sample last", write_model_obj(last.mesh), test::sample_options(last).request, all);
     all.push_back({"face", test::face(), {}});
     add_folder("LASTFLAT_LASTS", all);
     add_folder("LASTFLAT_MESHES", all);

@@ -12,6 +12,7 @@
 
 #include "api/flatten_request.h"
 #include "core/flatten.h"
+#include "core/load/load_model.h"
 #include "tests/helpers/curve_distance.h"
 
 namespace lastflat {
