@@ -99,7 +99,8 @@ TEST_SUITE("server/routes/submission") {
 
     TEST_CASE("the model's bytes alone have their constraints in a header") {
         const std::string tag = "eyJ0YWciOiJ0In0";  // {"tag":"t"}
-        const Submission submission = read_submission(request_of({"model/obj", "v 1", tag}));
+        const Plain plain{"model/obj", "v 1", tag};
+        const Submission submission = read_submission(request_of(plain));
         CHECK(submission.model == "v 1");
         CHECK(submission.request == R"({"tag":"t"})");
         CHECK(submission.tag == "t");
