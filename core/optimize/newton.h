@@ -30,7 +30,7 @@ struct Minimum {
 };
 
 /// Minimises distortion and other terms subject to rows: sequential quadratic programming with
-/// projected Newton Hessians, exact ones near the end, a step that no triangle survives flipped,
+/// projected Newton Hessians, exact ones near the end, steps that flip no triangle,
 /// and a line search on the energy plus the weighted errors of the rows.
 ///
 /// Paper:  [smith-2015], [smith-2019]; the multipliers' system: [vanderbei-1995]; the merit

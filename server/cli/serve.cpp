@@ -132,7 +132,7 @@ public:
 
     void stop() {
         draining_ = true;
-        workers_.stop(std::chrono::milliseconds(settings_.grace_ms));
+        runners_.stop(std::chrono::milliseconds(settings_.grace_ms));
         watch_.close(last_words);
         main_->stop();
         if (admin_) admin_->stop();
@@ -173,19 +173,19 @@ private:
     SqliteWebhooks webhooks_{database_};
     JobWatch watch_;
     Estimate estimate_;
-    const std::size_t recovered_jobs_ = recover(jobs_, blobs_);  ///< before any worker begins
+    const std::size_t recovered_jobs_ = recover(jobs_, blobs_);  ///< before any runner begins
     const ProcessLimits limits_ = process_limits(settings_);
-    RunnerPool workers_{jobs_,
+    RunnerPool runners_{jobs_,
                         blobs_,
                         watch_,
                         {settings_.workers, settings_.lease_ms, data_.work()},
                         run_jobs_in_workers(limits_, blobs_),
                         run_log(metrics_, estimate_)};
-    JobControl control_{jobs_, blobs_, watch_, workers_};
+    JobControl control_{jobs_, blobs_, watch_, runners_};
     JobIntake intake_{jobs_,
                       assets_,
                       blobs_,
-                      workers_,
+                      runners_,
                       {{settings_.queue, settings_.queue_per_key},
                        settings_.min_free_mb,
                        settings_.webhooks != WebhookTargets::none},
@@ -198,7 +198,7 @@ private:
     const JobView view_{watch_, estimate_, settings_.workers};
     const JobWait wait_{jobs_, watch_, seats_, view_};
     const AdminServices admin_services_{jobs_, metrics_, draining_, settings_.workers,
-                                        [this] { return workers_.busy(); }};
+                                        [this] { return runners_.busy(); }};
     Access access_{keys_, {settings_.rate, settings_.allowed_origins}};
     std::optional<Listener> main_, admin_;
 };

@@ -19,8 +19,8 @@ struct JobOutput {
     Rendered metrics;  ///< the JSON without coordinates
 };
 
-/// Writes the file, named by its digest; it is on the disk when the call returns. Throws:
-/// StoreError.
+/// Writes the file and returns its digest and parts; it is on the disk when the call returns.
+/// Throws: StoreError.
 [[nodiscard]] Succeeded write_result_pack(const JobOutput& output,
                                           const std::filesystem::path& file);
 

@@ -4,8 +4,8 @@
 
 namespace lastflat::server {
 
-/// Reads one `WorkOrder` as JSON from standard input, limits itself as that says, runs the job and
-/// writes one JSON object a line to standard output (see `work_messages.h`). Ends the process.
+/// Reads one `WorkOrder` from standard input, limits itself as that says, does its task and says
+/// one message a line on standard output (see `work_messages.h`). Ends the process.
 [[noreturn]] void work_command();
 
 }  // namespace lastflat::server
