@@ -19,7 +19,6 @@ import sqlite3
 import subprocess
 import sys
 import tempfile
-import time
 
 from contract_check import TYPES, load_contract
 from contract_service import NO_ASSET, NO_JOB, Server, Walk, bumpy_disk, form, path_of
@@ -232,16 +231,18 @@ def walk_more(walk, example):
 
 
 def walk_key_in_flight(walk, model):
-    """A second request with a key while the first waits for the store, which somebody else has locked."""
+    """Two requests with a key while the store is locked by somebody else: one waits for it, the other is told so at once."""
     held = sqlite3.connect(pathlib.Path(walk.server.folder.name, "jobs.sqlite"), isolation_level=None)
     held.execute("BEGIN IMMEDIATE")
     head = f'POST /v1/jobs HTTP/1.1\r\nHost: x\r\nConnection: close\r\nIdempotency-Key: "twice"\r\nContent-Length: {len(model)}\r\n\r\n'
-    first = walk.server.open(head.encode() + model)
-    time.sleep(0.3)
-    walk.expect(409, "key_in_flight", "POST", "/v1/jobs", headers=['Idempotency-Key: "twice"'], body=model)
+    asked = [walk.server.open(head.encode() + model) for _ in range(2)]
+    refused = walk.server.first_answered(asked)
+    asked.remove(refused)
+    problem = walk.contract.check("POST", "/v1/jobs", walk.server.read(refused))
+    assert problem.get("code") == "key_in_flight", problem
     held.execute("ROLLBACK")
     held.close()
-    job = walk.contract.check("POST", "/v1/jobs", walk.server.read(first))
+    job = walk.contract.check("POST", "/v1/jobs", walk.server.read(asked[0]))
     walk.wait_for(job["id"], "succeeded")
 
 

@@ -7,8 +7,9 @@ import select
 import socket
 import subprocess
 import tempfile
-import time
 import urllib.parse
+
+from eventually import eventually
 
 NO_JOB = "0" * 26
 NO_ASSET = "0" * 64
@@ -49,6 +50,12 @@ class Server:
         connection = socket.create_connection(("127.0.0.1", self.port), timeout=60)
         connection.sendall(data)
         return connection
+
+    @staticmethod
+    def first_answered(connections):
+        answered = select.select(connections, [], [], 10)[0]
+        assert answered, f"none of {len(connections)} connections is answered within 10 s"
+        return answered[0]
 
     @staticmethod
     def read(connection):
@@ -95,11 +102,7 @@ class Walk:
                            headers=["Content-Type: model/obj", "X-Flatten-Constraints: " + constraints])["id"]
 
     def wait_for(self, id, *states):
-        end = time.monotonic() + 60
-        while (job := self.expect(200, None, "GET", "/v1/jobs/{id}", id=id))["state"] not in states:
-            assert time.monotonic() < end, f"the job is still {job['state']}, not {states}"
-            time.sleep(0.02)
-        return job
+        return eventually(60, lambda: self.expect(200, None, "GET", "/v1/jobs/{id}", id=id), lambda job: job["state"] in states)
 
 
 def form(*parts):

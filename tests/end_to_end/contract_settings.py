@@ -6,9 +6,9 @@ import pathlib
 import signal
 import subprocess
 import tempfile
-import time
 
 from contract_service import Server, Walk, bumpy_disk
+from eventually import eventually
 
 
 def walk_keys(program, contract, example):
@@ -77,10 +77,8 @@ def walk_webhooks(program, contract, example):
         walk = Walk(server, contract)
         id = walk.expect(201, None, "POST", "/v1/webhooks", headers=[json_type], body=hook)["id"]
         walk.expect(202, None, "POST", "/v1/webhooks/{id}/test", id=id)
-        end = time.monotonic() + 10
-        while not (sent := walk.expect(200, None, "GET", "/v1/webhooks/{id}/deliveries", id=id)["items"])[0].get("error"):
-            assert time.monotonic() < end, sent
-            time.sleep(0.05)
+        eventually(10, lambda: walk.expect(200, None, "GET", "/v1/webhooks/{id}/deliveries", id=id)["items"],
+                   lambda sent: sent[0].get("error"))
         walk.expect(202, None, "PUT", "/v1/jobs/{id}", id=own, headers=[json_type], body=submission)
         walk.wait_for(own, "succeeded")
         assert walk.expect(200, None, "GET", "/v1/webhooks/{id}/deliveries", id=own)["items"][0]["event"] == "job.succeeded"
@@ -134,12 +132,10 @@ def walk_expiry(program, contract, example):
         id = walk.post(base64.b64decode(example["model"]["data"]), example["request"])
         for method in ("GET", "HEAD"):
             walk.expect(503, "streams_full" if method == "GET" else None, method, "/v1/jobs/{id}/events", id=id)
-        end = time.monotonic() + 10
-        while (answer := walk.ask("GET", "/v1/jobs/{id}/result", id=id))[0] != 410 and time.monotonic() < end:
-            time.sleep(0.1)
+        is_gone = lambda answer: answer[0] == 410
+        answer = eventually(10, lambda: walk.ask("GET", "/v1/jobs/{id}/result", id=id), is_gone)
         assert answer[1]["code"] == "result_expired", answer
-        while walk.ask("GET", "/v1/jobs/{id}", id=id)[0] != 410 and time.monotonic() < end:
-            time.sleep(0.1)
+        eventually(10, lambda: walk.ask("GET", "/v1/jobs/{id}", id=id), is_gone)
         for method, path, operation in contract.operations():
             if "410" in operation["responses"]:
                 walk.expect(410, "job_expired" if method != "HEAD" else None, method, path, id=id)
@@ -152,18 +148,23 @@ def walk_busy(program, contract):
     server = Server(program)
     try:
         walk = Walk(server, contract)
-        half_sent = b"POST /v1/assets HTTP/1.1\r\nHost: x\r\nContent-Length: 9\r\n\r\n"
+        half_sent = b"POST /v1/assets HTTP/1.1\r\nHost: x\r\nExpect: 100-continue\r\nContent-Length: 9\r\n\r\n"
         held = [server.open(half_sent) for _ in range(64)]
-        time.sleep(0.5)
-        held += [server.open(b"GET /v1/jobs HTTP/1.1\r\nHost: x\r\n\r\n") for _ in range(256)]
-        time.sleep(0.5)
+        for connection in held:  # a thread that asks for the body has nothing else to do until it comes
+            answer = connection.recv(100)
+            assert answer.startswith(b"HTTP/1.1 100 "), answer
+        # One more than there are places to wait: when it is refused, the others have theirs.
+        waiting = [server.open(b"GET /v1/jobs HTTP/1.1\r\nHost: x\r\n\r\n") for _ in range(257)]
+        refused = server.first_answered(waiting)
+        answer = contract.check("GET", "/v1/jobs", server.read(refused))
+        assert answer.get("code") == "server_busy", answer
         for method, path, operation in contract.operations():
             if "503" in operation["responses"]:
                 if path == "/healthz" and method != "OPTIONS":  # has threads of its own
                     walk.expect(200, None, method, path)
                 else:
                     walk.expect(503, "server_busy" if method != "HEAD" else None, method, path)
-        for connection in held:
+        for connection in held + waiting:
             connection.close()
         # Even they can be outrun, by hundreds of requests that arrive as one; not every time.
         for method in ("GET", "HEAD") * 10:

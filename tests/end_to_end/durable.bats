@@ -150,7 +150,7 @@ teardown() { stop_servers; }
     assert_problem 503 store_unavailable
     truncate -s "$(( $(stat -c %s "$BATS_TEST_TMPDIR/small/ballast") - 700000 ))" "$BATS_TEST_TMPDIR/small/ballast"
     post "$sample/last.obj" "$sample/last.request.json"  # room for the job, not for its result
-    sleep 2
+    wait_until 20 grep -q "\"job\":\"${job##*/}\".*\"outcome\":\"queued\".*No space left" "$BATS_TEST_TMPDIR"/server.*.err
     [[ $(state "$job") =~ ^(queued|running)$ ]]
     rm "$BATS_TEST_TMPDIR/small/ballast"
     wait_until 20 has_ended_job "$job"
