@@ -15,25 +15,25 @@ namespace {
 
 /// The longest closed section of the surface with a plane: the faces in their order, and where the
 /// section enters each.
-struct Section {
+struct PlaneSection {
     std::vector<Index> faces;
     Points3 entries;
 };
 
-Section section_of(const SurfaceMesh& surface, const Vec3& origin, const Vec3& normal) {
+PlaneSection section_of(const SurfaceMesh& surface, const Vec3& origin, const Vec3& normal) {
     const auto side = [&](Index v) { return normal.dot(surface.position(v) - origin) > 0.0; };
     const auto crosses = [&](OpenMesh::HalfedgeHandle h) {
         return !side(surface.mesh.from_vertex_handle(h).idx()) &&
                side(surface.mesh.to_vertex_handle(h).idx());
     };
     std::vector<bool> seen(surface.mesh.n_faces(), false);
-    Section best;
+    PlaneSection best;
     double longest = 0.0;
     for (const auto start : surface.mesh.halfedges()) {
         if (!crosses(start) ||
             seen[static_cast<std::size_t>(surface.mesh.face_handle(start).idx())])
             continue;
-        Section section;
+        PlaneSection section;
         double length = 0.0;
         OpenMesh::HalfedgeHandle h = start;
         do {  // into the face over a side that rises, out of it over the one that falls
@@ -59,7 +59,7 @@ Section section_of(const SurfaceMesh& surface, const Vec3& origin, const Vec3& n
 
 /// The stretches of a section that lie on marked faces, each as the points from end to end and, at
 /// both ends, `further` mm beyond.
-std::vector<Points3> stretches(const Section& section, const std::vector<bool>& marked,
+std::vector<Points3> stretches(const PlaneSection& section, const std::vector<bool>& marked,
                                double further) {
     const std::size_t n = section.faces.size();
     const auto is_marked = [&](std::size_t i) {

@@ -15,7 +15,7 @@ using Clock = JobWatch::Clock;
 
 constexpr std::chrono::seconds heartbeat{15};
 /// A client that has gone is noticed at the latest then.
-constexpr std::chrono::seconds look{1};
+constexpr std::chrono::seconds look_at_client{1};
 
 std::string event(std::string_view name, const std::string& id, const std::string& data) {
     return "event: " + std::string(name) + "\nid: " + id + "\ndata: " + data + "\n\n";
@@ -40,7 +40,7 @@ public:
             first_ = false;
             return write("retry: 2000\n\n") && send_news(write);
         }
-        if (subscription_.wait_until(Clock::now() + look)) return send_news(write);
+        if (subscription_.wait_until(Clock::now() + look_at_client)) return send_news(write);
         if (service_.watch.is_closed()) {
             write("event: shutdown\ndata: {}\n\n");
             return false;
