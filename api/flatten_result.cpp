@@ -74,7 +74,7 @@ Json report_json(const StretchPercentiles& p) {
 
 Json report_json(const StretchReport& s) {
     Json worst = Json::array();
-    for (const WorstPlace& w : s.worst) {
+    for (const WorstStrain& w : s.worst) {
         worst.push_back({{"position", json_of(w.position)},
                          {"larger_percent", w.larger_percent},
                          {"smaller_percent", w.smaller_percent}});
@@ -102,7 +102,7 @@ public:
         return at(source) < result_.file_vertices ? std::optional(source) : std::nullopt;
     }
     /// Of a vertex that a curve made: the vertices of the file between which it lies.
-    [[nodiscard]] const SurfacePlace& made_at(Index vertex) const {
+    [[nodiscard]] const SurfacePoint& made_at(Index vertex) const {
         return result_
             .added_vertices[at(region_.source_vertices[at(vertex)]) - result_.file_vertices];
     }
@@ -184,7 +184,7 @@ void append(std::string& text, const OutlineLoop& loop) {
     text += ",\"segments\":" + text_of(segments) + "}";
 }
 
-/// The way back to the model: ids of the file, and places between them for vertices that curves
+/// The way back to the model: ids of the file, and points between them for vertices that curves
 /// made.
 void append_sources(std::string& text, const Region& region, const Sources& sources) {
     std::string points;
@@ -193,7 +193,7 @@ void append_sources(std::string& text, const Region& region, const Sources& sour
         const auto file_vertex = sources.file_vertex(v);
         text += (file_vertex ? std::to_string(*file_vertex) : "null") + ",";
         if (file_vertex) continue;
-        const SurfacePlace& made = sources.made_at(v);
+        const SurfacePoint& made = sources.made_at(v);
         points += "{\"vertex\":" + std::to_string(v) + ",\"triangle\":";
         append(points, made.corners);
         points += ",\"weights\":";

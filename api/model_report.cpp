@@ -30,14 +30,14 @@ static Json file_json(const Inspection& found) {
 }
 
 static Json surface_json(const Inspection& found) {
-    Json loops = Json::array(), places = Json::array();
+    Json loops = Json::array(), positions = Json::array();
     for (const BorderLoop& loop : found.border_loops) {
         loops.push_back(loop.length_mm);
-        places.push_back(json_of(loop.position));
+        positions.push_back(json_of(loop.position));
     }
     return {{"vertices", found.vertices},          {"triangles", found.triangles},
             {"components", found.components},      {"closed", found.border_loops.empty()},
-            {"border_loops_mm", std::move(loops)}, {"border_positions", std::move(places)},
+            {"border_loops_mm", std::move(loops)}, {"border_positions", std::move(positions)},
             {"area_mm2", found.area_mm2},          {"size_mm", json_of(found.size_mm)}};
 }
 

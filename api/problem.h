@@ -27,7 +27,7 @@ struct Problem {
     std::string detail;  ///< what, where, and the mend, for people
     int status = code.status();
     std::optional<std::string> pointer{};                  ///< the field of the request at fault
-    std::optional<std::array<double, 3>> position{};       ///< the place on the last, mm
+    std::optional<std::array<double, 3>> position{};       ///< where on the last, mm
     std::vector<std::array<std::int32_t, 3>> triangles{};  ///< at fault, by vertex ids of the file
     std::vector<ConflictMember> conflict{};
 

@@ -101,7 +101,7 @@ struct DemandWriter {
         set_region(json, area.region);
     }
     void operator()(const Pin& pin) const {
-        json = {{"kind", "pin"}, {"vertex", pin.vertex}, {"at_mm", {pin.place.x(), pin.place.y()}}};
+        json = {{"kind", "pin"}, {"vertex", pin.vertex}, {"at_mm", {pin.at.x(), pin.at.y()}}};
         set_region(json, pin.region);
     }
     /// Stands in "seams".

@@ -4,7 +4,7 @@
 
 namespace lastflat {
 
-std::string place(const Vec3& position) {
+std::string position_text(const Vec3& position) {
     return fixed_text(position.x(), 1) + ' ' + fixed_text(position.y(), 1) + ' ' +
            fixed_text(position.z(), 1);
 }

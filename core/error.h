@@ -48,7 +48,7 @@ public:
         option_ = std::move(path);
         return *this;
     }
-    /// The place on the last, in mm.
+    /// Where on the last, in mm.
     Error& at_position(const Vec3& position) {
         position_ = position;
         return *this;
@@ -87,7 +87,7 @@ struct Warning {
     std::optional<Vec3> position;  ///< mm
 };
 
-/// "41.2 7.0 118.9": a place for a person to find, in mm to a tenth.
-[[nodiscard]] std::string place(const Vec3& position);
+/// "41.2 7.0 118.9": a position for a person to find, in mm to a tenth.
+[[nodiscard]] std::string position_text(const Vec3& position);
 
 }  // namespace lastflat

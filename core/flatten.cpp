@@ -59,7 +59,7 @@ Fan fan_of(const Region& region, bool drawn, const FlattenOptions& options,
     }
 }
 
-/// Regions that depend on each other, by their places in the list.
+/// Regions that depend on each other, by their indices.
 struct Group {
     std::vector<std::size_t> regions;
     ConstrainedChart refined{};

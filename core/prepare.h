@@ -26,7 +26,7 @@ struct Prepared {
     std::vector<Constraint> constraints;  ///< the plan's, and one for every seam
     std::size_t file_vertices = 0;
     /// Vertices that curves made, in the order of their ids, which follow those of the file.
-    std::vector<SurfacePlace> added_vertices;
+    std::vector<SurfacePoint> added_vertices;
     double smallest_added_angle = 0.0;  ///< of the triangles that curves made; radians
     std::vector<Warning> warnings;
     std::vector<Repair> repairs;  ///< what was changed in the model before

@@ -38,9 +38,9 @@ struct LoadLimits {
 struct WeldOptions {
     std::optional<double> unit_mm;    ///< one unit of the model in mm; default: the format's
     std::vector<std::string> groups;  ///< faces that carry one of these names; empty: all faces
-    /// Vertices at most this far apart become one. Default: those of the same place, within
-    /// `tolerance::same_place` of the model's size, and only in models without indices, so that a
-    /// slit stays a slit.
+    /// Vertices at most this far apart become one. Default: those of the same position, within
+    /// `tolerance::same_position` of the model's size, and only in models without indices, so that
+    /// a slit stays a slit.
     std::optional<double> tolerance_mm;
     /// Borders at most this far apart are stitched together; 0: none. Default:
     /// `tolerance::near_border` of the model's size, and only if this closes a model that comes in
@@ -149,10 +149,10 @@ struct TotalArea {
     std::string region{};
 };
 
-/// A point lies at a given place of the plane.
+/// A point lies at a given point of the plane.
 struct Pin {
     Index vertex;  ///< id of the file
-    Vec2 place;    ///< mm
+    Vec2 at;       ///< mm
     std::string region{};
 };
 

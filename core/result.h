@@ -35,7 +35,7 @@ struct FlattenResult {
     Sheet sheet;
     std::vector<Warning> warnings;
     /// Vertices that curves made, in the order of their ids, which follow those of the file.
-    std::vector<SurfacePlace> added_vertices;
+    std::vector<SurfacePoint> added_vertices;
     double smallest_added_angle = 0.0;  ///< of the triangles that curves made; radians
     std::size_t file_vertices = 0;
     std::vector<Repair> repairs;  ///< what was changed in the model before

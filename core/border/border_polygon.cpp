@@ -7,10 +7,10 @@
 namespace lastflat {
 namespace {
 
-/// "curve 'heel', at 1.0 2.0 3.0": the first named curve along border edge i, and its place.
+/// "curve 'heel', at 1.0 2.0 3.0": the first named curve along border edge i, and where it lies.
 std::string border_edge_name(const Region& region, std::size_t i) {
     const Index a = region.border[i], b = region.border[(i + 1) % region.border.size()];
-    const std::string where = "at " + place(region.position(a));
+    const std::string where = "at " + position_text(region.position(a));
     for (const CurveRun& run : region.runs) {
         for (std::size_t k = 1; k < run.vertices.size(); ++k) {
             const Index p = run.vertices[k - 1], q = run.vertices[k];

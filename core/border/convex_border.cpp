@@ -130,13 +130,13 @@ Points2 square_border(const Region& region) {
     }
     const auto corners = quarter_points(arc, start);
     const double side = arc[n] / 4.0;
-    const std::array<Vec2, 4> places{Vec2(0, 0), Vec2(side, 0), Vec2(side, side), Vec2(0, side)};
+    const std::array<Vec2, 4> square{Vec2(0, 0), Vec2(side, 0), Vec2(side, side), Vec2(0, side)};
     Points2 points(n);
     for (std::size_t q = 0; q < 4; ++q) {
         const std::size_t first = corners[q], last = q < 3 ? corners[q + 1] : start + n;
         for (std::size_t i = first; i < last; ++i) {
             const double t = (arc[i] - arc[first]) / (arc[last] - arc[first]);
-            points[i % n] = (1.0 - t) * places[q] + t * places[(q + 1) % 4];
+            points[i % n] = (1.0 - t) * square[q] + t * square[(q + 1) % 4];
         }
     }
     return points;

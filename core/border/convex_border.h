@@ -1,4 +1,4 @@
-// Convex places for the border, and the virtual layer around it.
+// Convex positions for the border, and the virtual layer around it.
 #pragma once
 
 #include "core/cut/region.h"

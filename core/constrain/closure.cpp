@@ -110,20 +110,20 @@ private:
         return edges;
     }
 
-    /// Two vertices cannot lie in one place.
+    /// Two vertices cannot lie in one point.
     [[nodiscard]] std::optional<OpenLoop> pins(std::size_t r) const {
-        std::map<std::pair<double, double>, std::size_t> places;  // to the row of the x coordinate
+        std::map<std::pair<double, double>, std::size_t> pinned;  // to the row of the x coordinate
         for (std::size_t k = 0; k + 1 < rows_.size(); ++k) {
             const Coordinate* pin = rows_[k].coordinate();
             if (pin == nullptr || pin->axis != 0) continue;
             if (domain_.region_of(pin->vertex) != r) continue;
             const auto [other, is_new] =
-                places.emplace(std::pair(rows_[k].most, rows_[k + 1].most), k);
+                pinned.emplace(std::pair(rows_[k].most, rows_[k + 1].most), k);
             if (is_new || rows_[other->second].vertex == pin->vertex) continue;
             const ConstraintRow& first = rows_[other->second];
             return loop({first.constraint, rows_[k].constraint},
                         domain_.distance(first.vertex, pin->vertex), pin->vertex,
-                        "two vertices cannot lie in one place");
+                        "two vertices cannot lie in one point");
         }
         return std::nullopt;
     }
@@ -154,10 +154,10 @@ private:
         }
         for (const auto& [v, hub] : hubs) {
             const double gap = 2.0 * std::numbers::pi - hub.angle;
-            if (!hub.locked || std::abs(gap) <= 10.0 * tolerance::locked_length) continue;
+            if (!hub.locked || std::abs(gap) <= tolerance::full_turn) continue;
             const Index vertex = v + domain_.first[r];
             return loop(hub.constraints, gap * hub.spokes / hub.triangles, vertex,
-                        "the locked edges around " + place(domain_.position(vertex)) +
+                        "the locked edges around " + position_text(domain_.position(vertex)) +
                             " do not close: their angles miss a full turn by " +
                             text_of("%.3g degrees", gap * 180.0 / std::numbers::pi));
         }

@@ -15,7 +15,7 @@ struct OpenLoop {
 };
 
 /// The first loop that the rows cannot close:
-/// - two vertices pinned to one place;
+/// - two vertices pinned to one point;
 /// - a vertex whose neighbouring edges are all locked, with angles that do not add up to a turn;
 /// - a straight side of the border longer than all other sides may be;
 /// - an area larger than any border of that length encloses (the isoperimetric inequality).

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/numerics/disjoint_sets.h"
 #include "core/numerics/polygon.h"
+#include "core/numerics/tolerances.h"
 
 namespace lastflat {
 namespace {
@@ -18,7 +19,7 @@ using Edge = std::pair<Index, Index>;
 /// A stretch of a curve, in the domain's vertices.
 using Side = std::vector<Index>;
 
-/// Stretches of curves, each with the place of its region.
+/// Stretches of curves, each with the index of its region.
 using Sides = std::vector<std::pair<std::size_t, const CurveRun*>>;
 
 Sides runs_of(const std::vector<const Region*>& regions, const std::string& curve,
@@ -188,7 +189,7 @@ private:
         const Index v = pinned.vertex + domain_.first[r];
         const double size = std::sqrt(areas_[r]);
         for (Index axis = 0; axis < 2; ++axis) {
-            const double at = pinned.place[axis];
+            const double at = pinned.at[axis];
             add_row({{1.0, Coordinate{v, axis}}}, at, at, size, v);
         }
     }
@@ -219,7 +220,7 @@ public:
             solved_.emplace(first, std::move(equation));
             return false;
         }
-        return std::abs(equation.sum) <= 1e-12 * equation.size;
+        return std::abs(equation.sum) <= tolerance::dependent_row * equation.size;
     }
 
 private:

@@ -9,7 +9,7 @@ namespace lastflat {
 
 /// A row that a constraint puts on the points.
 struct ConstraintRow : Row {
-    std::size_t constraint;  ///< its place in the list of constraints
+    std::size_t constraint;  ///< its index in the list of constraints
 };
 
 /// The rows that the constraints put on a domain. A match binds the domain that has both its sides.
@@ -26,7 +26,7 @@ struct ConstraintRow : Row {
                                                      const std::vector<std::size_t>& chosen);
 
 /// Which regions have to be flattened together because constraints match their curves or sew them:
-/// groups of places in `regions`, ascending.
+/// groups of indices into `regions`, ascending.
 /// Throws: Error{curve_invalid} if a match names no two sides, or a seam has them nowhere.
 [[nodiscard]] std::vector<std::vector<std::size_t>> coupled_regions(
     const std::vector<Region>& regions, const std::vector<Constraint>& constraints);

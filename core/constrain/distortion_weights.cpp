@@ -62,7 +62,7 @@ private:
     const Zone& zone_;
 };
 
-/// Places of a vertex of the file in this region.
+/// Vertices that a vertex of the file has become in this region.
 std::vector<Vec3> positions_of(const Region& region, Index source) {
     std::vector<Vec3> positions;
     for (std::size_t v = 0; v < region.source_vertices.size(); ++v) {

@@ -36,7 +36,7 @@ Eigen::VectorXd moved_to_pins(const Problem& problem, const Eigen::VectorXd& x) 
             if (held->axis == 0)
                 pins.push_back({held->vertex - problem.domain.first[r], Vec2(row.most, 0.0)});
             else
-                pins.back().place.y() = row.most;
+                pins.back().at.y() = row.most;
         }
         move_to_pins(pins, charts[r].uv);
     }

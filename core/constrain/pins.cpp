@@ -11,7 +11,7 @@ std::vector<PinnedVertex> pinned_vertices(const Region& region, const Pin& pin) 
     if (!binds(pin.region, region)) return pins;
     for (std::size_t v = 0; v < region.source_vertices.size(); ++v) {
         if (region.source_vertices[v] == pin.vertex)
-            pins.push_back({static_cast<Index>(v), pin.place});
+            pins.push_back({static_cast<Index>(v), pin.at});
     }
     return pins;
 }
@@ -32,13 +32,13 @@ void move_to_pins(const std::vector<PinnedVertex>& pins, Points2& uv) {
     Vec2 from = Vec2::Zero(), to = Vec2::Zero();
     for (const PinnedVertex& pin : pins) {
         from += uv[static_cast<std::size_t>(pin.vertex)];
-        to += pin.place;
+        to += pin.at;
     }
     from /= static_cast<double>(pins.size());
     to /= static_cast<double>(pins.size());
     double cosine = 0.0, sine = 0.0;
     for (const PinnedVertex& pin : pins) {
-        const Vec2 a = uv[static_cast<std::size_t>(pin.vertex)] - from, b = pin.place - to;
+        const Vec2 a = uv[static_cast<std::size_t>(pin.vertex)] - from, b = pin.at - to;
         cosine += a.dot(b);
         sine += cross(a, b);
     }

@@ -222,7 +222,7 @@ private:
         std::string text;
         for (const ConflictMember& m : members) {
             text += (text.empty() ? "" : ", ") + m.title + " (" + amount(m.off_mm, " mm") + " at " +
-                    place(m.position) + ")";
+                    position_text(m.position) + ")";
         }
         const Vec3 first = members.front().position;
         throw Error(ErrorCode::constraints_infeasible,

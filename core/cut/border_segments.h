@@ -8,7 +8,7 @@
 
 namespace lastflat {
 
-/// Loop vertices first, first + 1, ..., last (as places in the loop, around its end where
+/// Loop vertices first, first + 1, ..., last (as indices in the loop, around its end where
 /// last < first) are a run of the curve. Of a curve that is the whole loop, first == last.
 struct BorderSegment {
     std::string curve;

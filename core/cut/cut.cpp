@@ -15,7 +15,7 @@ using Mesh = TriMesh;
 /// More pieces than this are no pattern but a broken model (vertices that are not shared).
 constexpr Index max_default_regions = 64;
 
-/// A place that is meant to be in a region is near it.
+/// A point that is meant to be in a region is near it.
 constexpr double max_choice_distance_mm = 50.0;
 
 /// Marks the edges of the named curves, which stand in this list of the request.

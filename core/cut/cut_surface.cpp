@@ -65,8 +65,8 @@ Warning seam_warning(const Region& region, const HoleSeam& seam, const std::stri
             "region '" + region.name + "': a hole stands for " + std::to_string(degrees) +
                 " degrees of curvature and is opened along " +
                 (seam.curve.empty() ? "the new seam '" : "the curve '") + name + "', " +
-                std::to_string(std::lround(seam.length)) + " mm long, by " + place(seam.position) +
-                "; cut it where it suits you",
+                std::to_string(std::lround(seam.length)) + " mm long, by " +
+                position_text(seam.position) + "; cut it where it suits you",
             seam.position};
 }
 
@@ -101,7 +101,7 @@ private:
                 made_.push_back(name);
                 if (!is_in(cut_.seams, name)) cut_.seams.push_back(name);
                 if (seam.curve.empty())
-                    lines.push_back({name, std::move(seam.places), tolerance::geodesic_snap});
+                    lines.push_back({name, std::move(seam.points), tolerance::geodesic_snap});
             }
         }
         if (cut_.seams.size() == before) return false;

@@ -12,7 +12,7 @@ namespace {
 std::string loop_places(const Region& region, const std::vector<std::vector<Index>>& loops) {
     std::string text;
     for (std::size_t i = 0; i < loops.size() && i < 6; ++i) {
-        text += (i == 0 ? " at " : ", ") + place(region.position(loops[i].front()));
+        text += (i == 0 ? " at " : ", ") + position_text(region.position(loops[i].front()));
     }
     return loops.size() > 6 ? text + " ..." : text;
 }

@@ -20,12 +20,12 @@ using HalfedgeHandle = OpenMesh::HalfedgeHandle;
 /// A face as it was before any line came, laid into the plane.
 struct FlatFace {
     Triangle corners;
-    std::array<Vec2, 3> places;
+    std::array<Vec2, 3> flat;
     double snap;  ///< mm
 
-    [[nodiscard]] Vec2 at(const SurfacePlace& place) const {
+    [[nodiscard]] Vec2 at(const SurfacePoint& point) const {
         Vec2 sum = Vec2::Zero();
-        for (std::size_t i = 0; i < 3; ++i) sum += place.weight_of(corners[i]) * places[i];
+        for (std::size_t i = 0; i < 3; ++i) sum += point.weight_of(corners[i]) * flat[i];
         return sum;
     }
 };
@@ -43,10 +43,10 @@ public:
     void add(const SurfaceLine& line) {
         const std::size_t number = curves_.size();
         snap_ = line.snap;
-        std::vector<Index> path{vertex_at(line.places.front())};
-        for (std::size_t i = 1; i < line.places.size(); ++i) {
-            const Index face = common_face(line.places[i - 1], line.places[i]);
-            const Index to = vertex_at(line.places[i]);
+        std::vector<Index> path{vertex_at(line.points.front())};
+        for (std::size_t i = 1; i < line.points.size(); ++i) {
+            const Index face = common_face(line.points[i - 1], line.points[i]);
+            const Index to = vertex_at(line.points[i]);
             if (face < 0 || to == path.back()) continue;
             connect(flat(face), face, to, path);
         }
@@ -59,9 +59,9 @@ public:
     InsertedCurves finish() { return {std::move(curves_), std::move(added_), smallest_angle()}; }
 
 private:
-    [[nodiscard]] SurfacePlace place_of(Index vertex) const {
+    [[nodiscard]] SurfacePoint point_of(Index vertex) const {
         const auto v = static_cast<std::size_t>(vertex);
-        return v < old_vertices_ ? SurfacePlace::at_vertex(vertex) : added_[v - old_vertices_];
+        return v < old_vertices_ ? SurfacePoint::at_vertex(vertex) : added_[v - old_vertices_];
     }
     [[nodiscard]] Index old_face(FaceHandle face) const {
         return old_face_[static_cast<std::size_t>(face.idx())];
@@ -89,8 +89,8 @@ private:
         return found;
     }
 
-    /// An old face that holds both places; -1: they are one place, or there is none.
-    [[nodiscard]] Index common_face(const SurfacePlace& a, const SurfacePlace& b) const {
+    /// An old face that holds both points; -1: they are one point, or there is none.
+    [[nodiscard]] Index common_face(const SurfacePoint& a, const SurfacePoint& b) const {
         std::vector<Index> support = a.support();
         for (const Index v : b.support()) support.push_back(v);
         for (const Index face : faces_around(support.front())) {
@@ -109,21 +109,21 @@ private:
         return found->second;
     }
 
-    /// Whether a place is on the edge that another is on; inside a face everything is.
-    [[nodiscard]] static bool lies_within(const SurfacePlace& place, const SurfacePlace& other) {
+    /// Whether a point is on the edge that another is on; inside a face everything is.
+    [[nodiscard]] static bool lies_within(const SurfacePoint& point, const SurfacePoint& other) {
         const auto support = other.support();
         if (support.size() == 3) return true;
-        const auto own = place.support();
+        const auto own = point.support();
         return std::all_of(own.begin(), own.end(), [&](Index v) { return contains(support, v); });
     }
 
-    /// The vertex at a place, made if there is none. A place on an old edge stays on it: the next
+    /// The vertex at a point, made if there is none. A point on an old edge stays on it: the next
     /// face knows nothing of what is inside this one.
-    Index vertex_at(const SurfacePlace& place) {
-        if (const Index vertex = place.vertex(); vertex >= 0) return vertex;
-        const Index face = common_face(place, place);
+    Index vertex_at(const SurfacePoint& point) {
+        if (const Index vertex = point.vertex(); vertex >= 0) return vertex;
+        const Index face = common_face(point, point);
         const FlatFace plane = flat(face);
-        const Vec2 point = plane.at(place);
+        const Vec2 flat_point = plane.at(point);
         HalfedgeHandle nearest_edge;
         double edge_distance = plane.snap, share = 0.0;
         FaceHandle holder;
@@ -133,12 +133,12 @@ private:
             for (const auto h : mesh_.fh_range(part)) {
                 const Index a = mesh_.from_vertex_handle(h).idx(),
                             b = mesh_.to_vertex_handle(h).idx();
-                if (!lies_within(place_of(a), place)) continue;
-                const Vec2 from = plane.at(place_of(a)), along = plane.at(place_of(b)) - from;
-                if ((point - from).norm() <= plane.snap) return a;
-                const bool on_line = lies_within(place_of(b), place);
-                const double at = along.dot(point - from) / along.squaredNorm();
-                const double off = cross(along, point - from) / along.norm();
+                if (!lies_within(point_of(a), point)) continue;
+                const Vec2 from = plane.at(point_of(a)), along = plane.at(point_of(b)) - from;
+                if ((flat_point - from).norm() <= plane.snap) return a;
+                const bool on_line = lies_within(point_of(b), point);
+                const double at = along.dot(flat_point - from) / along.squaredNorm();
+                const double off = cross(along, flat_point - from) / along.norm();
                 inside = std::min(inside, off);
                 if (!on_line || at <= 0.0 || at >= 1.0 || std::abs(off) > edge_distance) continue;
                 edge_distance = std::abs(off);
@@ -151,11 +151,11 @@ private:
             }
         }
         if (nearest_edge.is_valid()) return split_edge(nearest_edge, share);
-        return split_face(holder, place);
+        return split_face(holder, point);
     }
 
-    Index add_vertex(const Vec3& position, const SurfacePlace& place) {
-        added_.push_back(place);
+    Index add_vertex(const Vec3& position, const SurfacePoint& point) {
+        added_.push_back(point);
         return mesh_.add_vertex({position.x(), position.y(), position.z()}).idx();
     }
 
@@ -177,10 +177,10 @@ private:
         }
     }
 
-    Index split_face(FaceHandle face, const SurfacePlace& place) {
+    Index split_face(FaceHandle face, const SurfacePoint& point) {
         std::map<Index, Index> old;
         for (const auto v : mesh_.fv_range(face)) old[v.idx()] = old_face(face);
-        const Index vertex = add_vertex(position_of(surface_, place), place);
+        const Index vertex = add_vertex(position_of(surface_, point), point);
         mesh_.split(face, VertexHandle(vertex));
         file_faces(vertex, old);
         return vertex;
@@ -197,7 +197,7 @@ private:
         }
         const Vec3 from = surface_.position(a), to = surface_.position(b);
         const Index vertex =
-            add_vertex(from + share * (to - from), between(place_of(a), place_of(b), share));
+            add_vertex(from + share * (to - from), between(point_of(a), point_of(b), share));
         mesh_.split(mesh_.edge_handle(edge), VertexHandle(vertex));
         file_faces(vertex, old);
         const auto users = users_.find(std::minmax(a, b));
@@ -233,8 +233,8 @@ private:
             extend(path, next);
         }
         if (path.back() != to)
-            throw Error(ErrorCode::curve_invalid,
-                        "a curve cannot be put into the faces at " + place(surface_.position(to)))
+            throw Error(ErrorCode::curve_invalid, "a curve cannot be put into the faces at " +
+                                                      position_text(surface_.position(to)))
                 .at_position(surface_.position(to));
     }
 
@@ -247,14 +247,14 @@ private:
     }
 
     Index step_towards(const FlatFace& plane, Index face, Index at, Index to) {
-        const Vec2 here = plane.at(place_of(at)), way = plane.at(place_of(to)) - here;
+        const Vec2 here = plane.at(point_of(at)), way = plane.at(point_of(to)) - here;
         const double length = way.norm();
         for (const auto h : mesh_.voh_range(VertexHandle(at))) {
             if (mesh_.is_boundary(h) || old_face(mesh_.face_handle(h)) != face) continue;
             const auto across = mesh_.next_halfedge_handle(h);
             const Index a = mesh_.from_vertex_handle(across).idx(),
                         b = mesh_.to_vertex_handle(across).idx();
-            const Vec2 to_a = plane.at(place_of(a)) - here, to_b = plane.at(place_of(b)) - here;
+            const Vec2 to_a = plane.at(point_of(a)) - here, to_b = plane.at(point_of(b)) - here;
             for (const auto& [v, arm] : {std::pair(a, to_a), std::pair(b, to_b)}) {
                 if (std::abs(cross(way, arm)) <= plane.snap * length && way.dot(arm) > 0.0 &&
                     arm.norm() < length)
@@ -270,7 +270,7 @@ private:
     void check_simple(const SurfaceLine& line, const std::vector<Index>& path) const {
         const auto fail = [&](const std::string& what, Index vertex) {
             throw Error(ErrorCode::curve_invalid, "curve '" + line.name + "' " + what + ", at " +
-                                                      place(surface_.position(vertex)))
+                                                      position_text(surface_.position(vertex)))
                 .at_option({"curves", line.name})
                 .at_position(surface_.position(vertex));
         };
@@ -302,23 +302,23 @@ private:
     std::vector<Triangle> faces_;  ///< the old ones' corners
     std::vector<Index> old_face_;  ///< per current face
     std::map<Index, std::vector<FaceHandle>> parts_;
-    std::vector<SurfacePlace> added_;
+    std::vector<SurfacePoint> added_;
     Curves curves_;
     std::map<std::pair<Index, Index>, std::set<std::size_t>> users_;  ///< curves along an edge
     std::set<Index> touched_;
 };
 
-/// A place on vertices of which those from `first` on are places themselves, all in one old face.
-SurfacePlace on_old_vertices(const SurfacePlace& place, Index first,
-                             const std::vector<SurfacePlace>& added) {
+/// A point on vertices of which those from `first` on are points themselves, all in one old face.
+SurfacePoint on_old_vertices(const SurfacePoint& point, Index first,
+                             const std::vector<SurfacePoint>& added) {
     std::map<Index, double> weights;
-    for (const Index corner : place.support()) {
-        const double share = place.weight_of(corner);
-        const SurfacePlace part = corner < first ? SurfacePlace::at_vertex(corner)
+    for (const Index corner : point.support()) {
+        const double share = point.weight_of(corner);
+        const SurfacePoint part = corner < first ? SurfacePoint::at_vertex(corner)
                                                  : added[static_cast<std::size_t>(corner - first)];
         for (const Index old : part.support()) weights[old] += share * part.weight_of(old);
     }
-    SurfacePlace sum;
+    SurfacePoint sum;
     sum.corners.fill(weights.begin()->first);
     std::size_t i = 0;
     for (const auto& [corner, weight] : weights) {
@@ -343,12 +343,12 @@ InsertedCurves insert_more_curves(SurfaceMesh& surface, InsertedCurves before,
     for (const Curve& curve : before.curves) {
         all.push_back({curve.name, {}});
         for (const Index v : curve.vertices)
-            all.back().places.push_back(SurfacePlace::at_vertex(v));
+            all.back().points.push_back(SurfacePoint::at_vertex(v));
     }
     all.insert(all.end(), lines.begin(), lines.end());
     InsertedCurves inserted = insert_curves(surface, all);
-    for (const SurfacePlace& place : inserted.added)
-        before.added.push_back(on_old_vertices(place, first, before.added));
+    for (const SurfacePoint& point : inserted.added)
+        before.added.push_back(on_old_vertices(point, first, before.added));
     inserted.added = std::move(before.added);
     inserted.smallest_angle = std::min(inserted.smallest_angle, before.smallest_angle);
     return inserted;

@@ -17,7 +17,7 @@ using Curves = std::vector<Curve>;
 struct InsertedCurves {
     Curves curves;  ///< in the order of the lines
     /// Of the vertices that were added, in the order of their ids.
-    std::vector<SurfacePlace> added;
+    std::vector<SurfacePoint> added;
     /// Of the triangles that were made; pi if there are none. Radians.
     double smallest_angle;
 };
@@ -34,7 +34,7 @@ struct InsertedCurves {
 /// they meet the lines.
 ///
 /// In:     what was put in before; lines on the surface as it is now.
-/// Out:    all curves, the new ones last; the places of all added vertices in terms of the vertices
+/// Out:    all curves, the new ones last; all added vertices in terms of the vertices
 ///         before any curve.
 [[nodiscard]] InsertedCurves insert_more_curves(SurfaceMesh& surface, InsertedCurves before,
                                                 const std::vector<SurfaceLine>& lines);

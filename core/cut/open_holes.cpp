@@ -46,9 +46,9 @@ std::optional<Index> rear_vertex(const Region& region, const std::vector<Index>&
     const double off = axis.dot(centre_of(region, hole) - centre);
     if (off < 0.0) axis = -axis;
     const auto along = [&](Index v) { return axis.dot(region.position(v) - centre); };
-    const auto by_place = [&](Index a, Index b) { return along(a) < along(b); };
+    const auto by_position = [&](Index a, Index b) { return along(a) < along(b); };
     const auto [front, rear] =
-        std::minmax_element(region.border.begin(), region.border.end(), by_place);
+        std::minmax_element(region.border.begin(), region.border.end(), by_position);
     if (std::abs(off) < off_middle * (along(*rear) - along(*front))) return std::nullopt;
     return *rear;
 }
@@ -67,7 +67,7 @@ public:
         }
     }
 
-    /// `hole`: its place among the border loops; `at_end`: where a last has its heel.
+    /// `hole`: its index among the border loops; `at_end`: where a last has its heel.
     std::vector<HoleSeam> run(std::size_t hole, double curvature, bool at_end) {
         hole_ = hole;
         curvature_ = curvature;
@@ -135,13 +135,13 @@ private:
     [[nodiscard]] GeodesicPath straightened(const EdgePaths& near,
                                             const std::vector<Index>& edges) const {
         Triangulation part;
-        std::vector<Index> place(region_.positions.size(), -1), source;
+        std::vector<Index> index(region_.positions.size(), -1), source;
         for (const Triangle& t : region_.triangles) {
             if (std::none_of(t.begin(), t.end(), [&](Index v) { return near.reaches(v); }))
                 continue;
             Triangle renamed{};
             for (std::size_t i = 0; i < 3; ++i) {
-                Index& v = place[static_cast<std::size_t>(t[i])];
+                Index& v = index[static_cast<std::size_t>(t[i])];
                 if (v < 0) {
                     v = static_cast<Index>(source.size());
                     source.push_back(t[i]);
@@ -153,8 +153,8 @@ private:
         }
         const ExactGeodesics geodesics(part);
         const auto distances =
-            geodesics.from_vertex(place[static_cast<std::size_t>(edges.front())], progress_);
-        Index end = place[static_cast<std::size_t>(edges.back())];
+            geodesics.from_vertex(index[static_cast<std::size_t>(edges.front())], progress_);
+        Index end = index[static_cast<std::size_t>(edges.back())];
         for (Index v = 0; v < static_cast<Index>(source.size()); ++v) {
             if (on_hole(source[static_cast<std::size_t>(v)]) &&
                 distances.distance[static_cast<std::size_t>(v)] <
@@ -186,14 +186,14 @@ private:
             const PathPoint& p = path.points[i];
             const Index a = region_.source_vertices[static_cast<std::size_t>(p.a)];
             const Index b = region_.source_vertices[static_cast<std::size_t>(p.b)];
-            seam.places.push_back(p.a == p.b ? SurfacePlace::at_vertex(a)
-                                             : SurfacePlace::on_edge(a, b, p.share));
+            seam.points.push_back(p.a == p.b ? SurfacePoint::at_vertex(a)
+                                             : SurfacePoint::on_edge(a, b, p.share));
             if (i > begin)
-                seam.length += (place_of(p, region_.positions) -
-                                place_of(path.points[i - 1], region_.positions))
+                seam.length += (position_of(p, region_.positions) -
+                                position_of(path.points[i - 1], region_.positions))
                                    .norm();
         }
-        seam.position = place_of(path.points[(begin + end) / 2], region_.positions);
+        seam.position = position_of(path.points[(begin + end) / 2], region_.positions);
         seam.curvature = curvature_;
         seams_.push_back(std::move(seam));
     }
@@ -232,7 +232,7 @@ std::vector<HoleSeam> seams_of_next_hole(const Region& region, HoleRule rule, bo
     if (rule == HoleRule::keep) return {};
     const auto curvatures = hole_curvatures(region);
     const auto is_much = [](double curvature) { return std::abs(curvature) > most_kept_curvature; };
-    std::size_t longest = 0;  // its place among the border loops; 0: none
+    std::size_t longest = 0;  // its index among the border loops; 0: none
     for (std::size_t k = 0; k < region.holes.size(); ++k) {
         const auto& hole = region.holes[k];
         if (is_slit(region, hole) || !(is_much(curvatures[k]) || rule == HoleRule::open)) continue;

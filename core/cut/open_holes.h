@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/cut/region.h"
-#include "core/locate/surface_place.h"
+#include "core/locate/surface_point.h"
 #include "core/progress.h"
 #include "core/request.h"
 
@@ -11,7 +11,7 @@ namespace lastflat {
 /// A line between two border loops of a region, along which it is to be cut.
 struct HoleSeam {
     std::string curve;                 ///< a curve that runs there already; else empty, and
-    std::vector<SurfacePlace> places;  ///< the line, on vertices of the cut surface
+    std::vector<SurfacePoint> points;  ///< the line, on vertices of the cut surface
     double length = 0.0;               ///< mm
     Vec3 position;                     ///< its middle
     double curvature = 0.0;            ///< that the hole stands for, radians

@@ -74,11 +74,11 @@ private:
 
 /// The triangles, one path for each class of colour; strokes of the same colour close the seams
 /// between them.
-std::string stretch_paths(const FlatRegion& flat, const Points2& places, const Page& page) {
+std::string stretch_paths(const FlatRegion& flat, const Points2& positions, const Page& page) {
     std::array<std::string, 2 * classes + 1> paths;
     std::vector<std::string> corners;  // each is a corner of about six triangles
-    corners.reserve(places.size());
-    for (const Vec2& p : places) corners.push_back(page.point(p));
+    corners.reserve(positions.size());
+    for (const Vec2& p : positions) corners.push_back(page.point(p));
     const auto stretches = signed_stretches(flat.region, flat.chart.uv);
     for (std::size_t t = 0; t < stretches.size(); ++t) {
         const double share = std::clamp((stretches[t] - 1.0) / colour_range, -1.0, 1.0);
@@ -130,63 +130,64 @@ std::string label_text(const CurveReport& report) {
 }
 
 /// The curve's name and lengths along it, inside the piece, where no other piece can lie.
-std::string label(const FlatRegion& flat, std::size_t run_index, const Points2& places,
+std::string label(const FlatRegion& flat, std::size_t run_index, const Points2& positions,
                   const Page& page) {
     const CurveRun& run = flat.region.runs[run_index];
     const std::size_t last = run.vertices.size() - 1, middle = run.vertices.size() / 2;
     const std::size_t reach = std::max<std::size_t>(1, last / 6);
     const auto at = [&](std::size_t i) {
-        return page(places[static_cast<std::size_t>(run.vertices[i])]);
+        return page(positions[static_cast<std::size_t>(run.vertices[i])]);
     };
     Vec2 along = at(std::min(last, middle + reach)) - at(middle - std::min(middle, reach));
     if (along.x() < 0.0) along = -along;  // so that no text stands on its head
     along = along.norm() > 0.0 ? Vec2(along.normalized()) : Vec2::UnitX();
     Vec2 centre = Vec2::Zero();
-    for (const Index v : flat.region.border) centre += page(places[static_cast<std::size_t>(v)]);
+    for (const Index v : flat.region.border) centre += page(positions[static_cast<std::size_t>(v)]);
     centre /= static_cast<double>(flat.region.border.size());
     const Vec2 down(-along.y(), along.x());
     // Below the curve, the text's own height comes on top of the distance.
     const double offset = down.dot(centre - at(middle)) > 0.0 ? 5.0 : -2.0;
-    const Vec2 place = at(middle) + offset * down;
+    const Vec2 anchor = at(middle) + offset * down;
     const double degrees = std::atan2(along.y(), along.x()) * 180.0 / std::numbers::pi;
-    return "<text transform=\"translate(" + number(place.x()) + " " + number(place.y()) +
+    return "<text transform=\"translate(" + number(anchor.x()) + " " + number(anchor.y()) +
            ") rotate(" + number(degrees) + ")\" text-anchor=\"middle\">" +
            label_text(flat.curves[run_index]) + "</text>\n";
 }
 
 /// The shortest paths on the last from the fan's centre to the border, as they lie in the flat.
-std::string fan_lines(const GeodesicFan& fan, const Points2& places, const Page& page) {
+std::string fan_lines(const GeodesicFan& fan, const Points2& positions, const Page& page) {
     std::string d;
     for (const FanSpoke& spoke : fan.spokes) {
         Points2 line;
-        for (const PathPoint& point : spoke.path.points) line.push_back(place_of(point, places));
+        for (const PathPoint& point : spoke.path.points)
+            line.push_back(position_of(point, positions));
         d += polyline(line, page, false);
     }
-    const Vec2 centre = page(places[static_cast<std::size_t>(fan.centre)]);
+    const Vec2 centre = page(positions[static_cast<std::size_t>(fan.centre)]);
     return "<g class=\"fan\"><path d=\"" + d + "\"/><circle cx=\"" + number(centre.x()) +
            "\" cy=\"" + number(centre.y()) + "\" r=\"1\"/></g>\n";
 }
 
 std::string piece(const FlatRegion& flat, const Placement& placement, const Page& page,
                   bool draw_fan) {
-    Points2 places;
-    for (const Vec2& p : flat.chart.uv) places.push_back(placement.apply(p));
+    Points2 positions;
+    for (const Vec2& p : flat.chart.uv) positions.push_back(placement.apply(p));
     Vec2 centre = Vec2::Zero();
     for (const Vec2& p : flat.outline.points)
         centre += page(placement.apply(p)) / static_cast<double>(flat.outline.points.size());
     const std::string name = escaped(flat.region.name);
     std::string svg = "<g id=\"" + name + "\" class=\"piece\">\n<g class=\"stretch\">\n" +
-                      stretch_paths(flat, places, page) + "</g>\n" +
-                      (draw_fan && flat.fan ? fan_lines(*flat.fan, places, page) : "") +
+                      stretch_paths(flat, positions, page) + "</g>\n" +
+                      (draw_fan && flat.fan ? fan_lines(*flat.fan, positions, page) : "") +
                       "<path class=\"cut\" d=\"" + cut_line(flat.outline, placement, page) +
                       "\"/>\n";
     for (std::size_t i = 0; i < flat.region.runs.size(); ++i) {
         Points2 points;
         for (const Index v : flat.region.runs[i].vertices)
-            points.push_back(places[static_cast<std::size_t>(v)]);
+            points.push_back(positions[static_cast<std::size_t>(v)]);
         svg += "<path class=\"curve" + std::string(flat.curves[i].locked ? " locked" : "") +
                "\" data-curve=\"" + escaped(flat.region.runs[i].curve) + "\" d=\"" +
-               polyline(points, page, false) + "\"/>\n" + label(flat, i, places, page);
+               polyline(points, page, false) + "\"/>\n" + label(flat, i, positions, page);
     }
     svg += "<text class=\"name\" x=\"" + number(centre.x()) + "\" y=\"" + number(centre.y()) +
            "\" text-anchor=\"middle\">" + name + (placement.mirrored ? " (mirrored)" : "") +

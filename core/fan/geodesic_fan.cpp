@@ -21,7 +21,7 @@ double angle_of_departure(const Region& region, const ConformalPlane& plane, Ind
     const auto angle_in = [&](const ConformalPlane::Corner& corner) {
         return corner.begin + corner.scale * angle_at(region.position(vertex),
                                                       region.position(corner.to),
-                                                      place_of(second, region.positions));
+                                                      position_of(second, region.positions));
     };
     const auto* from_a = plane.side_to(second.a);
     if (second.a == second.b) {

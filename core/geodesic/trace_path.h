@@ -26,12 +26,12 @@ struct GeodesicPath {
 [[nodiscard]] GeodesicPath trace_path(const Unfolding& unfolding,
                                       const GeodesicDistances& distances, Index vertex);
 
-/// The point of a path in space or in the plane, given the places of the vertices.
+/// The point of a path in space or in the plane, given the positions of the vertices.
 template <class Points>
-[[nodiscard]] auto place_of(const PathPoint& point, const Points& places) ->
+[[nodiscard]] auto position_of(const PathPoint& point, const Points& positions) ->
     typename Points::value_type {
-    return (1.0 - point.share) * places[static_cast<std::size_t>(point.a)] +
-           point.share * places[static_cast<std::size_t>(point.b)];
+    return (1.0 - point.share) * positions[static_cast<std::size_t>(point.a)] +
+           point.share * positions[static_cast<std::size_t>(point.b)];
 }
 
 }  // namespace lastflat

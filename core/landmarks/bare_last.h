@@ -1,7 +1,7 @@
 // What the stages of the search see of a bare last.
 #pragma once
 
-#include "core/locate/surface_place.h"
+#include "core/locate/surface_point.h"
 
 namespace lastflat {
 

@@ -178,7 +178,7 @@ std::vector<Index> line_around(const SurfaceMesh& surface, const std::vector<boo
         const Index from = surface.mesh.from_vertex_handle(h).idx();
         if (!next.emplace(from, surface.mesh.to_vertex_handle(h).idx()).second)
             fail_search(std::string("the ") + what + " touches itself at " +
-                        place(surface.position(from)));
+                        position_text(surface.position(from)));
     }
     if (next.empty()) fail_search(std::string("there is no ") + what);
     std::vector<Index> line{next.begin()->first};
@@ -187,7 +187,7 @@ std::vector<Index> line_around(const SurfaceMesh& surface, const std::vector<boo
     } while (line.back() != line.front() && line.size() <= next.size());
     if (line.size() != next.size() + 1)
         fail_search(std::string("the ") + what + " would be more than one line; another is at " +
-                    place(surface.position(next.rbegin()->first)));
+                    position_text(surface.position(next.rbegin()->first)));
     return line;
 }
 

@@ -31,7 +31,7 @@ std::optional<BorderSegment> front_segment(const std::vector<BorderSegment>& seg
     return std::nullopt;
 }
 
-/// Length of the border from one place on, counter-clockwise, to another.
+/// Length of the border from one of its vertices, counter-clockwise, to another.
 double border_length(const Region& region, Index from, Index to) {
     const std::size_t n = region.border.size();
     double length = 0.0;
@@ -62,20 +62,20 @@ std::vector<Patch> patches(const Region& region, const Chart& chart) {
     return result;
 }
 
-/// The flat direction along which the place along `axis` grows.
+/// The flat direction along which the position along `axis` grows.
 Vec2 direction_of(const Vec3& axis, const std::vector<Patch>& pieces) {
-    double area = 0.0, mean_place = 0.0;
+    double area = 0.0, mean_along = 0.0;
     Vec2 mean_flat = Vec2::Zero();
     for (const Patch& p : pieces) {
         area += p.area;
-        mean_place += p.area * p.centre.dot(axis);
+        mean_along += p.area * p.centre.dot(axis);
         mean_flat += p.area * p.flat_centre;
     }
-    mean_place /= area;
+    mean_along /= area;
     mean_flat /= area;
     Vec2 direction = Vec2::Zero();
     for (const Patch& p : pieces) {
-        direction += p.area * (p.centre.dot(axis) - mean_place) * (p.flat_centre - mean_flat);
+        direction += p.area * (p.centre.dot(axis) - mean_along) * (p.flat_centre - mean_flat);
     }
     return direction;
 }
@@ -88,7 +88,7 @@ std::optional<BaseLine> named_base_line(const Region& region) {
     const BorderSegment* heel = segment_of(segments, curve_name::heel);
     const auto front = front_segment(segments);
     if (heel == nullptr || !front) return std::nullopt;
-    const auto vertex = [&](Index place) { return region.border[static_cast<std::size_t>(place)]; };
+    const auto vertex = [&](Index i) { return region.border[static_cast<std::size_t>(i)]; };
     if (border_length(region, heel->last, front->first) >
         border_length(region, front->last, heel->first)) {
         return BaseLine{vertex(heel->last), vertex(front->first)};
@@ -146,7 +146,7 @@ void orient_charts(const std::vector<Region>& regions, const std::vector<Index>&
         }
         Vec2 origin = centres[r] < 0 ? low : uv[static_cast<std::size_t>(centres[r])];
         if (!pins.empty())
-            origin = uv[static_cast<std::size_t>(pins.front().vertex)] - pins.front().place;
+            origin = uv[static_cast<std::size_t>(pins.front().vertex)] - pins.front().at;
         for (Vec2& p : uv) p -= origin;
     }
 }

@@ -29,7 +29,7 @@ struct Sheet {
 /// stretch of border between them; where a region lacks them, the long axis of all regions in space
 /// takes the base line's place.
 ///
-/// A chart with one pinned vertex is turned and then has it in its place; one with
+/// A chart with one pinned vertex is turned and then has it in its position; one with
 /// more is moved to them.
 ///
 /// In:  per region the centre of its fan, or -1.

@@ -28,15 +28,15 @@ DracoTriangles decode_draco(std::string_view bytes, int attribute, const LoadLim
     const auto& mesh = *decoded.value();
     if (mesh.num_points() > limits.vertices || mesh.num_faces() > limits.triangles)
         fail_draco("holds more vertices or triangles than are read", ErrorCode::model_too_large);
-    const auto* places = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(attribute));
-    if (attribute < 0 || places == nullptr || places->num_components() != 3)
+    const auto* positions = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(attribute));
+    if (attribute < 0 || positions == nullptr || positions->num_components() != 3)
         fail_draco("has no positions under the id that the primitive names");
     DracoTriangles triangles;
     for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
-        std::array<float, 3> place{};
-        if (!places->ConvertValue<float, 3>(places->mapped_index(point), place.data()))
+        std::array<float, 3> xyz{};
+        if (!positions->ConvertValue<float, 3>(positions->mapped_index(point), xyz.data()))
             fail_draco("has positions that are no numbers");
-        triangles.positions.emplace_back(place[0], place[1], place[2]);
+        triangles.positions.emplace_back(xyz[0], xyz[1], xyz[2]);
     }
     for (draco::FaceIndex face(0); face < mesh.num_faces(); ++face) {
         for (const draco::PointIndex& corner : mesh.face(face)) {

@@ -207,14 +207,14 @@ private:
             fail_ply(std::to_string(element.count) + " vertices; at most " +
                          std::to_string(limits_.vertices) + " are read",
                      ErrorCode::model_too_large);
-        std::array<std::size_t, 3> places{};
+        std::array<std::size_t, 3> properties{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            places[axis] = element.properties.size();
+            properties[axis] = element.properties.size();
             for (std::size_t p = 0; p < element.properties.size(); ++p) {
                 if (element.properties[p].name == std::string(1, static_cast<char>('x' + axis)))
-                    places[axis] = p;
+                    properties[axis] = p;
             }
-            if (places[axis] == element.properties.size())
+            if (properties[axis] == element.properties.size())
                 fail_ply("the vertices have no property '" +
                          std::string(1, static_cast<char>('x' + axis)) + "'");
         }
@@ -223,7 +223,7 @@ private:
             for (std::size_t p = 0; p < element.properties.size(); ++p) {
                 const double value = read_value(element.properties[p], source, false);
                 for (std::size_t axis = 0; axis < 3; ++axis) {
-                    if (places[axis] == p) position[static_cast<Eigen::Index>(axis)] = value;
+                    if (properties[axis] == p) position[static_cast<Eigen::Index>(axis)] = value;
                 }
             }
             if (!position.allFinite())

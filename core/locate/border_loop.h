@@ -1,4 +1,4 @@
-// The border loop at a place.
+// The border loop at a point.
 #pragma once
 
 #include "core/locate/curves.h"

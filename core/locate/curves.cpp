@@ -27,7 +27,7 @@ Index located_vertex(const SurfaceMesh& surface, const std::string& curve, std::
     if (!surface.is_on_surface(vertex)) {
         fail_curve(curve, "vertices", item,
                    "vertex " + std::to_string(id) + " is not on the selected faces, at " +
-                       place(surface.position(vertex)),
+                       position_text(surface.position(vertex)),
                    surface.position(vertex));
     }
     return vertex;
@@ -43,7 +43,7 @@ void check_edge(const SurfaceMesh& surface, const std::string& curve, std::size_
                "vertices " + std::to_string(ids[item - 1]) + " and " + std::to_string(ids[item]) +
                    " share no edge; they are " +
                    fixed_text((surface.position(a) - surface.position(b)).norm(), 3) +
-                   " mm apart, at " + place(surface.position(a)),
+                   " mm apart, at " + position_text(surface.position(a)),
                surface.position(a));
 }
 
@@ -58,7 +58,7 @@ std::vector<Index> vertex_path(const SurfaceMesh& surface, const std::string& cu
         if (!seen.insert(vertex).second && !closes) {
             fail_curve(curve, "vertices", i,
                        "the curve meets itself at vertex " + std::to_string(ids[i]) + ", at " +
-                           place(surface.position(vertex)),
+                           position_text(surface.position(vertex)),
                        surface.position(vertex));
         }
         path.push_back(vertex);
@@ -67,11 +67,11 @@ std::vector<Index> vertex_path(const SurfaceMesh& surface, const std::string& cu
     return path;
 }
 
-std::vector<SurfacePlace> places_of(const std::vector<Index>& vertices) {
-    std::vector<SurfacePlace> places;
-    places.reserve(vertices.size());
-    for (const Index v : vertices) places.push_back(SurfacePlace::at_vertex(v));
-    return places;
+std::vector<SurfacePoint> points_of(const std::vector<Index>& vertices) {
+    std::vector<SurfacePoint> points;
+    points.reserve(vertices.size());
+    for (const Index v : vertices) points.push_back(SurfacePoint::at_vertex(v));
+    return points;
 }
 
 Points3 line_of_model(const SurfaceMesh& surface, const std::string& curve,
@@ -100,42 +100,42 @@ public:
         for (const CurveSource& source : sources) {
             const double snap =
                 is_drawn(source.form) ? tolerance::drawn_snap : tolerance::geodesic_snap;
-            auto places = std::visit(
-                [&](const auto& form) { return this->places(source.name, form); }, source.form);
-            found_.push_back({source.name, std::move(places), snap});
+            auto line = std::visit([&](const auto& form) { return this->line(source.name, form); },
+                                   source.form);
+            found_.push_back({source.name, std::move(line), snap});
         }
         return std::move(found_);
     }
 
 private:
-    [[nodiscard]] std::vector<SurfacePlace> places(const std::string& name,
-                                                   const VertexPath& path) const {
-        return places_of(vertex_path(surface_, name, path.vertices));
+    [[nodiscard]] std::vector<SurfacePoint> line(const std::string& name,
+                                                 const VertexPath& path) const {
+        return points_of(vertex_path(surface_, name, path.vertices));
     }
-    [[nodiscard]] std::vector<SurfacePlace> places(const std::string& name,
-                                                   const GroupBorder& border) const {
-        return places_of(group_line(surface_, name, border));
+    [[nodiscard]] std::vector<SurfacePoint> line(const std::string& name,
+                                                 const GroupBorder& border) const {
+        return points_of(group_line(surface_, name, border));
     }
-    [[nodiscard]] std::vector<SurfacePlace> places(const std::string& name,
-                                                   const BorderAt& border) const {
-        return places_of(border_loop(surface_, name, border));
+    [[nodiscard]] std::vector<SurfacePoint> line(const std::string& name,
+                                                 const BorderAt& border) const {
+        return points_of(border_loop(surface_, name, border));
     }
-    [[nodiscard]] std::vector<SurfacePlace> places(const std::string& name,
-                                                   const ShortestPath& path) {
-        std::vector<SurfacePlace> stops;
+    [[nodiscard]] std::vector<SurfacePoint> line(const std::string& name,
+                                                 const ShortestPath& path) {
+        std::vector<SurfacePoint> stops;
         for (std::size_t i = 0; i < path.through.size(); ++i) stops.push_back(named(name, path, i));
         return shortest_paths(surface_, stops);
     }
-    [[nodiscard]] std::vector<SurfacePlace> places(const std::string& name,
-                                                   const Polyline& polyline) {
+    [[nodiscard]] std::vector<SurfacePoint> line(const std::string& name,
+                                                 const Polyline& polyline) {
         return drawn(name, "polyline", polyline.points);
     }
-    [[nodiscard]] std::vector<SurfacePlace> places(const std::string& name, const NamedLine& line) {
+    [[nodiscard]] std::vector<SurfacePoint> line(const std::string& name, const NamedLine& line) {
         return drawn(name, "line", line_of_model(surface_, name, line.line));
     }
 
     /// The ends are put on other lines or the border where they are near and were drawn.
-    [[nodiscard]] SurfacePlace named(const std::string& curve, const ShortestPath& path,
+    [[nodiscard]] SurfacePoint named(const std::string& curve, const ShortestPath& path,
                                      std::size_t item) {
         const std::string& name = path.through[item];
         const std::size_t last = path.through.size() - 1;
@@ -147,20 +147,20 @@ private:
                                         [&](const PointSource& p) { return p.name == name; });
         if (point == points_.end()) fail("there is no point '" + name + "'");
         if (const auto* position = std::get_if<Vec3>(&point->location)) {
-            SurfacePlace place = on_surface(*position, fail);
-            if (item == 0 || item == last) snap(place);
-            return place;
+            SurfacePoint end = on_surface(*position, fail);
+            if (item == 0 || item == last) snap(end);
+            return end;
         }
         const Index vertex = std::get<Index>(point->location);
         if (!surface_.is_on_surface(vertex))
             fail("vertex " + std::to_string(vertex) + " is not on the selected faces");
-        return SurfacePlace::at_vertex(surface_.welded_to[static_cast<std::size_t>(vertex)]);
+        return SurfacePoint::at_vertex(surface_.welded_to[static_cast<std::size_t>(vertex)]);
     }
 
     /// The polyline on the surface, its ends on other lines or the border where they are near.
-    [[nodiscard]] std::vector<SurfacePlace> drawn(const std::string& name, const std::string& field,
+    [[nodiscard]] std::vector<SurfacePoint> drawn(const std::string& name, const std::string& field,
                                                   const Points3& polyline) {
-        std::vector<SurfacePlace> stops;
+        std::vector<SurfacePoint> stops;
         for (std::size_t i = 0; i < polyline.size(); ++i) {
             stops.push_back(on_surface(polyline[i], [&](const std::string& what) {
                 fail_curve(name, field, i, what, polyline[i]);
@@ -171,7 +171,7 @@ private:
             snap(stops.front());
             snap(stops.back());
         }
-        std::vector<SurfacePlace> line{stops.front()};
+        std::vector<SurfacePoint> line{stops.front()};
         for (std::size_t i = 1; i < stops.size(); ++i) {
             if ((position_of(surface_, stops[i]) - position_of(surface_, line.back())).norm() ==
                 0.0)
@@ -179,7 +179,7 @@ private:
             if (follow_surface(search(), surface_, stops[i], line)) continue;
             fail_curve(name, field, i,
                        "the line from the point before cannot be followed on the surface, near " +
-                           place(polyline[i]) + "; give more points there",
+                           position_text(polyline[i]) + "; give more points there",
                        polyline[i]);
         }
         return line;
@@ -191,21 +191,21 @@ private:
     }
 
     template <class Fail>
-    SurfacePlace on_surface(const Vec3& position, const Fail& fail) {
+    SurfacePoint on_surface(const Vec3& position, const Fail& fail) {
         const auto nearest = search().nearest(position);
         const double most = tolerance::drawn_reach * search().size();
         if (nearest.distance > most)
             fail("the point is " + fixed_text(nearest.distance, 3) +
                  " mm away from the surface (at most " + fixed_text(most, 3) +
                  " mm); are the units right?");
-        return nearest.place;
+        return nearest.point;
     }
 
-    void snap(SurfacePlace& end) {
+    void snap(SurfacePoint& end) {
         const Vec3 at = position_of(surface_, end);
-        SurfacePlace best = end;
+        SurfacePoint best = end;
         double least = tolerance::drawn_end_reach * search().size();
-        const auto consider = [&](const SurfacePlace& a, const SurfacePlace& b) {
+        const auto consider = [&](const SurfacePoint& a, const SurfacePoint& b) {
             const Vec3 from = position_of(surface_, a), to = position_of(surface_, b);
             if (from == to) return;
             const double share = nearest_share(from, to, at);
@@ -215,14 +215,14 @@ private:
             best = share == 0.0 ? a : share == 1.0 ? b : between(a, b, share);
         };
         for (const SurfaceLine& line : found_) {
-            for (std::size_t i = 1; i < line.places.size(); ++i)
-                consider(line.places[i - 1], line.places[i]);
+            for (std::size_t i = 1; i < line.points.size(); ++i)
+                consider(line.points[i - 1], line.points[i]);
         }
         for (const auto edge : surface_.mesh.edges()) {
             if (!surface_.mesh.is_boundary(edge)) continue;
             const auto h = surface_.mesh.halfedge_handle(edge, 0);
-            consider(SurfacePlace::at_vertex(surface_.mesh.from_vertex_handle(h).idx()),
-                     SurfacePlace::at_vertex(surface_.mesh.to_vertex_handle(h).idx()));
+            consider(SurfacePoint::at_vertex(surface_.mesh.from_vertex_handle(h).idx()),
+                     SurfacePoint::at_vertex(surface_.mesh.to_vertex_handle(h).idx()));
         }
         end = best;
     }

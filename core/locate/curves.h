@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "core/locate/surface_place.h"
+#include "core/locate/surface_point.h"
 #include "core/request.h"
 
 namespace lastflat {
 
-/// A line on the surface: one triangle holds each two consecutive places. Closed if the first place
+/// A line on the surface: one triangle holds each two consecutive points. Closed if the first point
 /// is also the last.
 struct SurfaceLine {
     std::string name;
-    std::vector<SurfacePlace> places;
+    std::vector<SurfacePoint> points;
     double snap = 0.0;  ///< how near to vertices and edges it may be put on them (tolerances.h)
 };
 
@@ -27,7 +27,8 @@ struct SurfaceLine {
 /// within `tolerance::drawn_end_reach`.
 ///
 /// In:     sources in the order of their turns.
-/// Throws: Error{curve_invalid} naming the curve, the item and the place, if an id does not exist
+/// Throws: Error{curve_invalid} naming the curve, the item and the position, if an id does not
+/// exist
 ///         or is not on the selected faces, if two consecutive vertices share no edge, if a path
 ///         meets itself other than by closing, if a point is too far from the surface or names
 ///         nothing, or if groups do not meet along one line; Error{group_not_found}.

@@ -8,14 +8,14 @@
 namespace lastflat {
 namespace {
 
-Vec3 normal_at(const SurfaceMesh& surface, const SurfacePlace& place) {
+Vec3 normal_at(const SurfaceMesh& surface, const SurfacePoint& point) {
     Vec3 sum = Vec3::Zero();
-    for (const Index face : faces_at(surface, place))
+    for (const Index face : faces_at(surface, point))
         sum += doubled_area_vector(surface, corners_of(surface, face)).normalized();
     return sum;
 }
 
-/// The plane through two places that stands on the surface.
+/// The plane through two points that stands on the surface.
 struct Section {
     Vec3 origin, normal, direction;
     double length;
@@ -25,45 +25,45 @@ struct Section {
 };
 
 /// Where the section meets an edge.
-std::optional<SurfacePlace> meeting(const SurfaceMesh& surface, const Section& section, Index a,
+std::optional<SurfacePoint> meeting(const SurfaceMesh& surface, const Section& section, Index a,
                                     Index b) {
     const double side_a = section.side(surface.position(a));
     const double side_b = section.side(surface.position(b));
     if (side_a == side_b || side_a * side_b > 0.0) return std::nullopt;
     const double share = side_a / (side_a - side_b);
-    if (share < tolerance::on_edge) return SurfacePlace::at_vertex(a);
-    if (share > 1.0 - tolerance::on_edge) return SurfacePlace::at_vertex(b);
-    return SurfacePlace::on_edge(a, b, share);
+    if (share < tolerance::on_edge) return SurfacePoint::at_vertex(a);
+    if (share > 1.0 - tolerance::on_edge) return SurfacePoint::at_vertex(b);
+    return SurfacePoint::on_edge(a, b, share);
 }
 
-/// Whether an edge leads away from a place: one that the place itself is on does not.
+/// Whether an edge leads away from a point: one that the point itself is on does not.
 bool leads_away(const std::vector<Index>& support, Index a, Index b) {
     if (support.size() == 1) return !contains(support, a) && !contains(support, b);
     return support.size() == 3 || !contains(support, a) || !contains(support, b);
 }
 
-/// Where the section leaves the faces at a place; the way that leads furthest along.
-std::optional<SurfacePlace> next_place(const SurfaceMesh& surface, const Section& section,
-                                       const SurfacePlace& from, double& reached) {
+/// Where the section leaves the faces at a point; the way that leads furthest along.
+std::optional<SurfacePoint> next_point(const SurfaceMesh& surface, const Section& section,
+                                       const SurfacePoint& from, double& reached) {
     const std::vector<Index> support = from.support();
-    std::optional<SurfacePlace> best;
+    std::optional<SurfacePoint> best;
     double furthest = reached + tolerance::progress * section.length;
     for (const Index face : faces_at(surface, from)) {
         const Triangle corners = corners_of(surface, face);
         for (std::size_t i = 0; i < 3; ++i) {
             const Index a = corners[i], b = corners[(i + 1) % 3];
             if (!leads_away(support, a, b)) continue;
-            const auto place = meeting(surface, section, a, b);
-            if (!place || section.along(position_of(surface, *place)) <= furthest) continue;
-            furthest = section.along(position_of(surface, *place));
-            best = place;
+            const auto point = meeting(surface, section, a, b);
+            if (!point || section.along(position_of(surface, *point)) <= furthest) continue;
+            furthest = section.along(position_of(surface, *point));
+            best = point;
         }
     }
     reached = furthest;
     return best;
 }
 
-bool share_a_face(const SurfaceMesh& surface, const SurfacePlace& a, const SurfacePlace& b) {
+bool share_a_face(const SurfaceMesh& surface, const SurfacePoint& a, const SurfacePoint& b) {
     const auto faces = faces_at(surface, a);
     for (const Index face : faces_at(surface, b)) {
         if (contains(faces, face)) return true;
@@ -71,10 +71,10 @@ bool share_a_face(const SurfaceMesh& surface, const SurfacePlace& a, const Surfa
     return false;
 }
 
-/// The border's half-edge that a place is on.
+/// The border's half-edge that a point is on.
 std::optional<OpenMesh::HalfedgeHandle> border_at(const SurfaceMesh& surface,
-                                                  const SurfacePlace& place) {
-    const std::vector<Index> support = place.support();
+                                                  const SurfacePoint& point) {
+    const std::vector<Index> support = point.support();
     for (const auto h : surface.mesh.voh_range(OpenMesh::VertexHandle(support.front()))) {
         for (const auto side :
              {OpenMesh::HalfedgeHandle(h),
@@ -90,15 +90,15 @@ std::optional<OpenMesh::HalfedgeHandle> border_at(const SurfaceMesh& surface,
     return std::nullopt;
 }
 
-/// Along the border, if both places are on it and the way is not much longer than the straight one.
-bool slide(const SurfaceMesh& surface, const SurfacePlace& to, std::vector<SurfacePlace>& line) {
+/// Along the border, if both points are on it and the way is not much longer than the straight one.
+bool slide(const SurfaceMesh& surface, const SurfacePoint& to, std::vector<SurfacePoint>& line) {
     const auto begin = border_at(surface, line.back()), end = border_at(surface, to);
     if (!begin || !end) return false;
     constexpr double longest = 1.25;  // of the straight way
     const Vec3 from = position_of(surface, line.back()), target = position_of(surface, to);
     const double most = longest * (target - from).norm();
     for (const bool forward : {true, false}) {
-        std::vector<SurfacePlace> way;
+        std::vector<SurfacePoint> way;
         Vec3 at = from;
         double length = 0.0;
         OpenMesh::HalfedgeHandle h = *begin;
@@ -110,7 +110,7 @@ bool slide(const SurfaceMesh& surface, const SurfacePlace& to, std::vector<Surfa
             length += (next - at).norm();
             at = next;
             if (way.empty() ? line.back().vertex() != vertex.idx() : true)
-                way.push_back(SurfacePlace::at_vertex(vertex.idx()));
+                way.push_back(SurfacePoint::at_vertex(vertex.idx()));
             h = forward ? surface.mesh.next_halfedge_handle(h)
                         : surface.mesh.prev_halfedge_handle(h);
         }
@@ -122,7 +122,7 @@ bool slide(const SurfaceMesh& surface, const SurfacePlace& to, std::vector<Surfa
     return false;
 }
 
-bool walk(const SurfaceMesh& surface, const SurfacePlace& to, std::vector<SurfacePlace>& line) {
+bool walk(const SurfaceMesh& surface, const SurfacePoint& to, std::vector<SurfacePoint>& line) {
     if (slide(surface, to, line)) return true;
     const Vec3 begin = position_of(surface, line.back()), end = position_of(surface, to);
     const Vec3 way = end - begin;
@@ -132,11 +132,11 @@ bool walk(const SurfaceMesh& surface, const SurfacePlace& to, std::vector<Surfac
     if (!normal.allFinite()) return false;
     const Section section{begin, normal, way.normalized(), way.norm()};
     double reached = 0.0;
-    std::vector<SurfacePlace> way_points;
-    SurfacePlace at = line.back();
+    std::vector<SurfacePoint> way_points;
+    SurfacePoint at = line.back();
     constexpr std::size_t most_steps = 100'000;
     while (!share_a_face(surface, at, to)) {
-        const auto next = next_place(surface, section, at, reached);
+        const auto next = next_point(surface, section, at, reached);
         if (!next || reached > section.length * (1.0 + tolerance::on_edge) ||
             way_points.size() > most_steps)
             return false;
@@ -148,20 +148,20 @@ bool walk(const SurfaceMesh& surface, const SurfacePlace& to, std::vector<Surfac
     return true;
 }
 
-bool follow(const SurfaceSearch& search, const SurfaceMesh& surface, const SurfacePlace& to,
-            std::vector<SurfacePlace>& line, int depth) {
+bool follow(const SurfaceSearch& search, const SurfaceMesh& surface, const SurfacePoint& to,
+            std::vector<SurfacePoint>& line, int depth) {
     if (walk(surface, to, line)) return true;
     if (depth == 0) return false;
     const Vec3 middle = 0.5 * (position_of(surface, line.back()) + position_of(surface, to));
-    const SurfacePlace between = search.nearest(middle).place;
+    const SurfacePoint between = search.nearest(middle).point;
     return follow(search, surface, between, line, depth - 1) &&
            follow(search, surface, to, line, depth - 1);
 }
 
 }  // namespace
 
-bool follow_surface(const SurfaceSearch& search, const SurfaceMesh& surface, const SurfacePlace& to,
-                    std::vector<SurfacePlace>& line) {
+bool follow_surface(const SurfaceSearch& search, const SurfaceMesh& surface, const SurfacePoint& to,
+                    std::vector<SurfacePoint>& line) {
     constexpr int most_halvings = 8;
     const std::size_t before = line.size();
     if (follow(search, surface, to, line, most_halvings)) return true;

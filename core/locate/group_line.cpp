@@ -72,9 +72,10 @@ std::vector<Index> group_line(const SurfaceMesh& surface, const std::string& cur
     for (auto& [vertex, next] : neighbours) {
         std::sort(next.begin(), next.end());
         if (next.size() > 2)
-            fail_border_of(
-                curve, "the line between the groups branches at " + place(surface.position(vertex)),
-                surface.position(vertex));
+            fail_border_of(curve,
+                           "the line between the groups branches at " +
+                               position_text(surface.position(vertex)),
+                           surface.position(vertex));
         if (next.size() == 1 && neighbours.at(begin).size() != 1) begin = vertex;
     }
     std::vector<Index> line{begin};
@@ -94,7 +95,7 @@ std::vector<Index> group_line(const SurfaceMesh& surface, const std::string& cur
                                         [&](const auto& n) { return !seen.contains(n.first); });
         fail_border_of(curve,
                        "the groups meet along more than one line; another is at " +
-                           place(surface.position(other->first)),
+                           position_text(surface.position(other->first)),
                        surface.position(other->first));
     }
     return line;

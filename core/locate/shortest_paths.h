@@ -1,14 +1,14 @@
 // Curves that are shortest paths between points.
 #pragma once
 
-#include "core/locate/surface_place.h"
+#include "core/locate/surface_point.h"
 
 namespace lastflat {
 
-/// The line through the places in their order, a shortest path of the surface between each two.
+/// The line through the points in their order, a shortest path of the surface between each two.
 /// Throws: Error{solver_failed} of `ExactGeodesics` and `trace_path`; Error{curve_invalid} if two
-///         consecutive places lie on pieces that do not meet.
-[[nodiscard]] std::vector<SurfacePlace> shortest_paths(const SurfaceMesh& surface,
-                                                       const std::vector<SurfacePlace>& through);
+///         consecutive points lie on pieces that do not meet.
+[[nodiscard]] std::vector<SurfacePoint> shortest_paths(const SurfaceMesh& surface,
+                                                       const std::vector<SurfacePoint>& through);
 
 }  // namespace lastflat

@@ -1,7 +1,7 @@
-// The nearest place of the surface.
+// The nearest point of the surface.
 #pragma once
 
-#include "core/locate/surface_place.h"
+#include "core/locate/surface_point.h"
 #include "core/numerics/triangle_search.h"
 
 namespace lastflat {
@@ -12,7 +12,7 @@ public:
     explicit SurfaceSearch(const SurfaceMesh& surface);
 
     struct Nearest {
-        SurfacePlace place;
+        SurfacePoint point;
         Vec3 position;
         double distance;  ///< mm
     };

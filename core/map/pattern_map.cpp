@@ -15,10 +15,10 @@ Triangulation flat(const FlatPiece& piece) {
 
 /// The weighted mean of a triangle's corners.
 template <class Points>
-typename Points::value_type mean(const FlatPiece& piece, const Points& places,
+typename Points::value_type mean(const FlatPiece& piece, const Points& positions,
                                  const TriangleSearch::Nearest& at) {
     const Triangle& t = piece.triangles[static_cast<std::size_t>(at.triangle)];
-    const auto corner = [&](std::size_t i) { return places[static_cast<std::size_t>(t[i])]; };
+    const auto corner = [&](std::size_t i) { return positions[static_cast<std::size_t>(t[i])]; };
     return at.weights[0] * corner(0) + at.weights[1] * corner(1) + at.weights[2] * corner(2);
 }
 

@@ -34,7 +34,7 @@ public:
         Vec2 uv;
         double distance;  ///< of the point from the last, mm
     };
-    /// The nearest place of one piece, or of all; on a cut, of the first of its pieces.
+    /// The nearest point of one piece, or of all; on a cut, of the first of its pieces.
     /// Throws: Error{region_invalid} if there is no such piece.
     [[nodiscard]] OnPattern to_pattern(const Vec3& position,
                                        const std::optional<std::string>& piece = {}) const;

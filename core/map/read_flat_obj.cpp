@@ -4,7 +4,7 @@
 namespace lastflat {
 namespace {
 
-/// "12/12": the same number for the place on the last and the flat one.
+/// "12/12": the same number for the point on the last and the flat one.
 Index corner(TextScanner& scanner, std::size_t before, std::size_t count) {
     const std::string_view word = scanner.next_word();
     std::size_t number = 0;

@@ -9,7 +9,7 @@ std::string first_places(const Region& region, const std::vector<Index>& triangl
     std::string text;
     for (std::size_t i = 0; i < triangles.size() && i < 3; ++i) {
         const Triangle& t = region.triangles[static_cast<std::size_t>(triangles[i])];
-        text += (i == 0 ? " at " : ", ") + place(region.position(t[0]));
+        text += (i == 0 ? " at " : ", ") + position_text(region.position(t[0]));
     }
     return triangles.size() > 3 ? text + " ..." : text;
 }
@@ -20,8 +20,8 @@ void check_crossings(const Region& region, const Points2& uv, MethodName method,
     if (crossings.empty()) return;
     const auto& [a, b] = crossings.front();
     const std::string what = "region '" + region.name + "': the flat border crosses itself " +
-                             std::to_string(crossings.size()) + " times, first where " + place(a) +
-                             " meets " + place(b);
+                             std::to_string(crossings.size()) + " times, first where " +
+                             position_text(a) + " meets " + position_text(b);
     if (method == MethodName::isometric) {
         throw Error(ErrorCode::border_crosses, what + "; cut the region so that it opens wider")
             .at_option({"regions", region.name})
@@ -56,7 +56,7 @@ void check_constraints_kept(const std::vector<ConstraintReport>& reports,
         const Constraint& constraint = constraints[report.constraint];
         const std::string what = "region '" + report.region + "': " + title(constraint) +
                                  " is off by " + std::to_string(report.residual_mm) + " mm at " +
-                                 place(report.position);
+                                 position_text(report.position);
         if (!report.relaxed) {
             throw Error(ErrorCode::constraints_infeasible, what)
                 .at_option(constraint.option)

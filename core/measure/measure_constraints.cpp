@@ -178,7 +178,7 @@ private:
     }
 
     [[nodiscard]] ConstraintReport pin(std::size_t r, const PinnedVertex& pinned) const {
-        const double distance = (flat(r, pinned.vertex) - pinned.place).norm();
+        const double distance = (flat(r, pinned.vertex) - pinned.at).norm();
         ConstraintReport report = bounded(0.0, 0.0, distance, std::sqrt(surface_area(regions_[r])));
         report.region = regions_[r].name;
         report.position = regions_[r].position(pinned.vertex);

@@ -9,8 +9,8 @@
 namespace lastflat {
 namespace {
 
-constexpr std::size_t most_places = 10;
-/// Places nearer to each other than this share of the region's size are one.
+constexpr std::size_t most_listed = 10;
+/// Points nearer to each other than this share of the region's size are one.
 constexpr double apart = 0.05;
 
 struct Leather {
@@ -40,24 +40,24 @@ StretchPercentiles percentiles(std::vector<std::pair<double, double>> values, do
             percentile(values, total, 0.99)};
 }
 
-std::vector<WorstPlace> worst_places(const Region& region, std::vector<Leather> leather,
-                                     double total) {
+std::vector<WorstStrain> worst_strains(const Region& region, std::vector<Leather> leather,
+                                       double total) {
     std::sort(leather.begin(), leather.end(), [](const Leather& a, const Leather& b) {
         return std::pair(-std::abs(a.worst()), a.triangle) <
                std::pair(-std::abs(b.worst()), b.triangle);
     });
-    std::vector<WorstPlace> places;
+    std::vector<WorstStrain> worst;
     for (const Leather& l : leather) {
-        if (places.size() == most_places || std::abs(l.worst()) < tolerance::noticed_strain_percent)
+        if (worst.size() == most_listed || std::abs(l.worst()) < tolerance::noticed_strain_percent)
             break;
         const Triangle& t = region.triangles[static_cast<std::size_t>(l.triangle)];
         const Vec3 middle = centroid(region, t);
-        const bool known = std::any_of(places.begin(), places.end(), [&](const WorstPlace& p) {
+        const bool known = std::any_of(worst.begin(), worst.end(), [&](const WorstStrain& p) {
             return (p.position - middle).norm() < apart * std::sqrt(total);
         });
-        if (!known) places.push_back({middle, l.larger, l.smaller});
+        if (!known) worst.push_back({middle, l.larger, l.smaller});
     }
-    return places;
+    return worst;
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ StretchReport measure_stretch(const Region& region, const Points2& uv,
     }
     report.larger = percentiles(std::move(larger), total);
     report.smaller = percentiles(std::move(smaller), total);
-    report.worst = worst_places(region, std::move(leather), total);
+    report.worst = worst_strains(region, std::move(leather), total);
     if (material) {
         report.beyond_material = beyond / total;
         report.material_verdict = beyond == 0.0            ? Verdict::pass

@@ -46,7 +46,7 @@ struct PairReport {
 
 /// What one constraint came to, in one region; a match names the region of its first side.
 struct ConstraintReport {
-    std::size_t constraint;  ///< its place in the list
+    std::size_t constraint;  ///< its index in the list
     std::string region;
     double asked_min, asked_max;  ///< mm, of an area mm^2; infinite: no bound
     double reached;
@@ -61,7 +61,7 @@ struct StretchPercentiles {
     double p01, p05, p50, p95, p99;
 };
 
-struct WorstPlace {
+struct WorstStrain {
     Vec3 position;  ///< on the last, mm
     double larger_percent, smaller_percent;
 };
@@ -71,8 +71,8 @@ struct WorstPlace {
 struct StretchReport {
     StretchPercentiles larger, smaller;
     double most_stretched_percent, most_compressed_percent;
-    std::vector<WorstPlace> worst;  ///< ten at most, apart from each other, the worst first
-    double beyond_material = 0.0;   ///< share of the area outside the limits
+    std::vector<WorstStrain> worst;  ///< ten at most, apart from each other, the worst first
+    double beyond_material = 0.0;    ///< share of the area outside the limits
     std::optional<Verdict> material_verdict{};  ///< pass: none; warn: up to 1 % of the area
 };
 

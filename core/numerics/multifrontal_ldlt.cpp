@@ -76,7 +76,7 @@ void MultifrontalLdlt::sort_entries(const SparseMatrix& lower) {
 /// Which later unknowns every front touches, and where in it its entries go.
 void MultifrontalLdlt::find_rows() {
     rows_.clear();
-    std::vector<Index> rows, place(position_.size());
+    std::vector<Index> rows, slot(position_.size());
     for (Front& front : fronts_) {
         const Index end = front.first + front.columns;
         rows.clear();
@@ -95,12 +95,12 @@ void MultifrontalLdlt::find_rows() {
         front.rows_begin = rows_.size();
         front.rows = rows.size();
         rows_.insert(rows_.end(), rows.begin(), rows.end());
-        for (Index i = 0; i < front.columns; ++i) place[at(front.first + i)] = i;
+        for (Index i = 0; i < front.columns; ++i) slot[at(front.first + i)] = i;
         for (std::size_t i = 0; i < rows.size(); ++i)
-            place[at(rows[i])] = front.columns + static_cast<Index>(i);
+            slot[at(rows[i])] = front.columns + static_cast<Index>(i);
         for (std::size_t e = front.entries_begin; e < front.entries_end; ++e) {
-            entries_[e].row = place[at(entries_[e].row)];
-            entries_[e].column = place[at(entries_[e].column)];
+            entries_[e].row = slot[at(entries_[e].row)];
+            entries_[e].column = slot[at(entries_[e].column)];
         }
     }
 }
@@ -179,12 +179,12 @@ bool MultifrontalLdlt::run(std::size_t t, const double* matrix, const Progress& 
         for (const Index c : front.children) {
             if (task_of_[at(c)] == t) task.top -= update_size(c);
         }
-        double* place = task.stack.data() + task.top;
+        double* room = task.stack.data() + task.top;
         for (std::size_t j = 0; j < front.rows; ++j) {  // its lower triangle
             const std::size_t first = j * front.rows + j;
-            std::copy_n(schur + first, front.rows - j, place + first);
+            std::copy_n(schur + first, front.rows - j, room + first);
         }
-        updates_[at(f)] = place;
+        updates_[at(f)] = room;
         task.top += update_size(f);
     }
     return true;
@@ -204,33 +204,33 @@ void MultifrontalLdlt::assemble(const Front& front, const double* matrix, double
         panel[at(entry.column) * height + at(entry.row)] += matrix[entry.from];
     }
     for (const Index c : front.children) {
-        add_update(fronts_[at(c)], updates_[at(c)], front, schur, task.places);
+        add_update(fronts_[at(c)], updates_[at(c)], front, schur, task.slots);
     }
 }
 
 void MultifrontalLdlt::add_update(const Front& child, const double* update, const Front& front,
-                                  double* schur, std::vector<Index>& places) {
-    places.resize(child.rows);
+                                  double* schur, std::vector<Index>& slots) {
+    slots.resize(child.rows);
     const Index* rows = rows_.data() + front.rows_begin;
     Index next = 0;
     for (std::size_t i = 0; i < child.rows; ++i) {
         const Index position = rows_[child.rows_begin + i];
         if (position < front.first + front.columns) {
-            places[i] = position - front.first;
+            slots[i] = position - front.first;
         } else {
             while (rows[next] != position) ++next;
-            places[i] = front.columns + next;
+            slots[i] = front.columns + next;
         }
     }
     const std::size_t height = front.height(), width = front.width();
     double* panel = values_.data() + front.panel;
     for (std::size_t j = 0; j < child.rows; ++j) {
-        const std::size_t column = at(places[j]);
+        const std::size_t column = at(slots[j]);
         const bool own = column < width;
         double* to = own ? panel + column * height : schur + (column - width) * front.rows;
         const Index first = own ? 0 : front.columns;
         for (std::size_t i = j; i < child.rows; ++i)
-            to[places[i] - first] += update[j * child.rows + i];
+            to[slots[i] - first] += update[j * child.rows + i];
     }
 }
 

@@ -61,7 +61,7 @@ private:
         std::vector<Index> fronts;
         std::vector<double> stack;  ///< updates that their parents have not taken yet
         std::size_t top = 0;
-        std::vector<Index> places;  ///< of an update's rows in its parent's front
+        std::vector<Index> slots;  ///< of an update's rows in its parent's front
         PackBuffers buffers;
     };
 
@@ -73,7 +73,7 @@ private:
     [[nodiscard]] bool run(std::size_t task, const double* matrix, const Progress& progress);
     void assemble(const Front& front, const double* matrix, double* schur, Task& task);
     void add_update(const Front& child, const double* update, const Front& front, double* schur,
-                    std::vector<Index>& places);
+                    std::vector<Index>& slots);
 
     std::vector<Front> fronts_;
     std::vector<Index> position_;  ///< per unknown, when it is eliminated

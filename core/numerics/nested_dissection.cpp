@@ -80,10 +80,10 @@ private:
         return false;
     }
 
-    using Place = std::vector<Index>::iterator;
+    using Position = std::vector<Index>::iterator;
 
     /// Sorts a part into its halves along a direction and marks them.
-    void halve(Place begin, Place middle, Place end, const Vec2& direction) {
+    void halve(Position begin, Position middle, Position end, const Vec2& direction) {
         for (auto v = begin; v != end; ++v) key_[at(*v)] = direction.dot(positions_[at(*v)]);
         std::nth_element(begin, middle, end, [&](Index a, Index b) {
             return std::pair(key_[at(a)], a) < std::pair(key_[at(b)], b);
@@ -93,7 +93,7 @@ private:
 
     /// Halves a part across its longest direction, or at a slant to it where that leaves a shorter
     /// wall: on regular meshes the walls follow the edges.
-    void halve_best(Place begin, Place middle, Place end) {
+    void halve_best(Position begin, Position middle, Position end) {
         constexpr std::ptrdiff_t worth_trying = 64;
         const Vec2 longest = longest_direction({begin, end}), across(-longest.y(), longest.x());
         if (end - begin < worth_trying) return halve(begin, middle, end, longest);
@@ -132,11 +132,11 @@ private:
             first_end = low_wall;
             wall = std::rotate(low_wall, middle, end);
         }
-        const auto place = [&](auto i) { return static_cast<std::size_t>(i - order_.begin()); };
+        const auto index = [&](auto i) { return static_cast<std::size_t>(i - order_.begin()); };
         const Index block =
-            wall == end ? part.parent : add_block({place(wall), part.end, part.parent});
-        parts_.push_back({part.begin, place(first_end), block});
-        parts_.push_back({place(first_end), place(wall), block});
+            wall == end ? part.parent : add_block({index(wall), part.end, part.parent});
+        parts_.push_back({part.begin, index(first_end), block});
+        parts_.push_back({index(first_end), index(wall), block});
     }
 
     const VertexGraph& graph_;

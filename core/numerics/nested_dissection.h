@@ -28,7 +28,7 @@ struct EliminationBlock {
 /// line come after those on its sides.
 ///
 /// Paper: [george-1973]; any lines instead of the grid's: [heath-1995].
-/// In:    per vertex its place: neighbours should be near each other.
+/// In:    per vertex its position: neighbours should be near each other.
 /// Out:   every vertex in one block; blocks come after their children.
 [[nodiscard]] std::vector<EliminationBlock> nested_dissection(const VertexGraph& graph,
                                                               const Points2& positions);

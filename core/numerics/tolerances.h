@@ -1,6 +1,6 @@
 // Every epsilon of core, each with its reason: what is round-off, and what is near enough to be the
-// same. All are relative unless the name says otherwise. What is judged, and what a last looks
-// like, stands where that is done.
+// same. All are relative unless the name says otherwise. What is judged, what a last looks like,
+// and the parameters of a method (shares, penalties, counts) stand where that is done.
 #pragma once
 
 namespace lastflat::tolerance {
@@ -11,7 +11,7 @@ inline constexpr double degenerate_height = 1e-6;
 
 /// Vertices nearer to each other than this share of the model's size are one: the digits of a
 /// float.
-inline constexpr double same_place = 1e-6;
+inline constexpr double same_position = 1e-6;
 /// Borders nearer than this share of the model's size may be one line, which two programs have
 /// divided each in its own way: about 0.6 mm on a last. Vertices nearer than this share of that
 /// were one from the start.
@@ -39,12 +39,36 @@ inline constexpr double projected_gradient = 1e-9;
 /// Where no step lowers the energy any more round-off hides the rest (needles, circles shrunk to
 /// points); above this it was not round-off.
 inline constexpr double stalled_gradient = 1e-7;
+/// Below this sum of projected gradient and error the first-order conditions are solved directly.
+inline constexpr double nearly_optimal = 1e-3;
+/// The merit function may rise by this share of itself, which is its round-off, at each step; a
+/// step that promises to lower it by less than the second share is idle; one shorter than the third
+/// share of Newton's goes nowhere.
+inline constexpr double merit_round_off = 1e-13, idle_decrease = 1e-15, smallest_step = 1e-10;
+/// A linear system is solved when the residual is this share of the right side.
+inline constexpr double refined = 1e-12;
+/// Two principal stretches nearer to each other than this are equal: the quotient of differences
+/// would be round-off, and is its limit to ten digits.
+inline constexpr double equal_stretches = 1e-6;
+/// A quadratic coefficient below this share of the linear one is 0.
+inline constexpr double linear = 1e-14;
+
+/// A border vertex that passes the end of an edge by less than this share of it meets the edge.
+inline constexpr double passed_corner = 1e-6;
+/// Border edges nearer on the last than this share of the clearance are two sides of one curve.
+inline constexpr double slit_width = 1e-3;
+
+/// An equation whose sum, after what others say is taken out, is below this share of its terms
+/// says nothing new.
+inline constexpr double dependent_row = 1e-12;
+/// Radians: locked edges around a vertex whose angles miss a full turn by less close.
+inline constexpr double full_turn = 10.0 * locked_length;
 
 /// Added to the diagonal of a Hessian, as a share of its mean: a rigid motion costs no energy, so
 /// the Hessian alone is singular in three directions. The least of the shifts that are tried.
 inline constexpr double rigid_motion = 1e-9;
 
-/// Added to the diagonal of the three coordinates that hold a chart in place, as a multiple of the
+/// Added to the diagonal of the three coordinates that hold a chart still, as a multiple of the
 /// mean: large enough to hold them, small enough to keep the others' digits.
 inline constexpr double pin = 1e4;
 

@@ -88,9 +88,9 @@ TriangleSearch::Nearest TriangleSearch::nearest(const Vec3& position) const {
             const Vec3 &a = surface_.position(t[0]), &b = surface_.position(t[1]),
                        &c = surface_.position(t[2]);
             const Vec3 weights = nearest_weights(a, b, c, position);
-            const Vec3 place = weights[0] * a + weights[1] * b + weights[2] * c;
-            const double distance = (place - position).norm();
-            if (distance < best.distance) best = {triangle, weights, place, distance};
+            const Vec3 nearest = weights[0] * a + weights[1] * b + weights[2] * c;
+            const double distance = (nearest - position).norm();
+            if (distance < best.distance) best = {triangle, weights, nearest, distance};
             return false;
         });
         if (best.distance <= reach) break;

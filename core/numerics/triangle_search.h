@@ -1,11 +1,12 @@
-// The nearest place on triangles.
+// The nearest point of triangles.
 #pragma once
 
 #include "core/numerics/box_tree.h"
 
 namespace lastflat {
 
-/// The weights of the triangle's place nearest to a point; exactly 0 where it is on the border.
+/// The weights of the point of the triangle nearest to a point; exactly 0 where it is on the
+/// border.
 [[nodiscard]] Vec3 nearest_weights(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& point);
 
 class TriangleSearch {

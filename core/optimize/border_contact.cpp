@@ -10,6 +10,7 @@
 #include "core/numerics/box_tree.h"
 #include "core/numerics/polygon.h"
 #include "core/numerics/quadratic.h"
+#include "core/numerics/tolerances.h"
 
 namespace lastflat {
 namespace {
@@ -26,7 +27,7 @@ struct Distance {
     Matrix6 hessian = Matrix6::Zero();
 };
 
-/// Adds the derivatives of |q - p| times `factor` for the points at places i and j of six.
+/// Adds the derivatives of |q - p| times `factor` for the points i and j of six.
 void add_length(const Vec2& unit, double length, Eigen::Index i, Eigen::Index j, Distance& d) {
     d.gradient.segment<2>(i) = unit;
     d.gradient.segment<2>(j) = -unit;
@@ -113,8 +114,7 @@ double meeting_time(const std::array<Vec2, 3>& from, const std::array<Vec2, 3>& 
         if (!(t >= 0.0 && t <= 1.0)) continue;
         const double where =
             foot(from[0] + t * motion[0], from[1] + t * motion[1], from[2] + t * motion[2]);
-        constexpr double slack = 1e-6;  // a corner that is passed too closely counts as met
-        if (where >= -slack && where <= 1.0 + slack) return t;
+        if (where >= -tolerance::passed_corner && where <= 1.0 + tolerance::passed_corner) return t;
     }
     return infinity;
 }
@@ -188,8 +188,7 @@ double BorderContact::clearance_of(const Loop& loop, std::size_t vertex, std::si
     const double t = std::clamp((p - a).dot(e) / e.squaredNorm(), 0.0, 1.0);
     const double across = (p - a - t * e).norm();
     double clearance = std::min(clearance_, 0.25 * along);
-    constexpr double slit = 1e-3;  // nearer on the surface than this share: two sides of one curve
-    if (across > slit * clearance) clearance = std::min(clearance, 0.5 * across);
+    if (across > tolerance::slit_width * clearance) clearance = std::min(clearance, 0.5 * across);
     return clearance;
 }
 

@@ -12,6 +12,7 @@
 #include "core/numerics/polygon.h"
 #include "core/numerics/quadratic.h"
 #include "core/numerics/singular_values.h"
+#include "core/numerics/tolerances.h"
 
 namespace lastflat {
 namespace {
@@ -28,7 +29,7 @@ Eigen::Matrix2d rest_edges(const Region& region, const Triangle& t) {
 
 /// Of a t^2 + b t + c with c > 0.
 double smallest_positive_root(double a, double b, double c) {
-    if (std::abs(a) < 1e-14 * std::abs(b)) return b < 0.0 ? -c / b : infinity;
+    if (std::abs(a) < tolerance::linear * std::abs(b)) return b < 0.0 ? -c / b : infinity;
     double least = infinity;
     for (const double root : quadratic_roots(a, b, c)) {
         if (root > 0.0) least = std::min(least, root);

@@ -15,7 +15,7 @@ struct Domain {
     explicit Domain(const std::vector<const Region*>& parts);
 
     [[nodiscard]] Index vertices() const { return first.back(); }
-    /// The region that a vertex is in, by its place in `regions`.
+    /// The region that a vertex is in, by its index in `regions`.
     [[nodiscard]] std::size_t region_of(Index vertex) const;
     [[nodiscard]] const Vec3& position(Index vertex) const;
     [[nodiscard]] double distance(Index a, Index b) const {

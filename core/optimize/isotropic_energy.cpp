@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "core/numerics/tolerances.h"
+
 namespace lastflat {
 
 double SymmetricDirichlet::value(double s1, double s2) const {
@@ -53,8 +55,8 @@ EnergyDerivatives WeightedDirichlet::derivatives(double s1, double s2) const {
     e.d12 = 0.0;
     e.d22 = b.second;
     e.twist = (e.d1 + e.d2) / (s1 + s2);
-    // Nearer than this the quotient would be round-off, and is its limit to ten digits.
-    e.flip = s1 - s2 > 1e-6 ? (e.d1 - e.d2) / (s1 - s2) : 0.5 * (e.d11 + e.d22);
+    e.flip =
+        s1 - s2 > tolerance::equal_stretches ? (e.d1 - e.d2) / (s1 - s2) : 0.5 * (e.d11 + e.d22);
     return e;
 }
 

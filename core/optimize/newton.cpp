@@ -13,8 +13,6 @@ namespace lastflat {
 namespace {
 
 constexpr int max_iterations = 300;
-/// Below this sum of projected gradient and error the first-order conditions are solved directly.
-constexpr double nearly_optimal = 1e-3;
 /// Rows that contradict each other pull with forces beyond this many times the size of the surface;
 /// or their error has not fallen by a tenth within so many steps.
 constexpr double greatest_force = 1e3;
@@ -105,9 +103,9 @@ struct LineSearch {
 /// Goes along d as far as the merit function falls, by a slope of at least `slope`.
 LineSearch search(const Problem& problem, const OptimalitySystem& system, const ActiveSet& active,
                   const VectorXd& x, const VectorXd& d, double slope, double penalty) {
-    constexpr double armijo = 1e-4, round_off = 1e-13, smallest = 1e-10;
+    constexpr double armijo = 1e-4;
     const double before = merit(problem, x, penalty);
-    const double allowance = round_off * std::abs(before);
+    const double allowance = tolerance::merit_round_off * std::abs(before);
     const auto falls = [&](const VectorXd& to, double t) {
         return merit(problem, to, penalty) <= before + armijo * t * slope + allowance;
     };
@@ -118,7 +116,7 @@ LineSearch search(const Problem& problem, const OptimalitySystem& system, const 
         blocked = blocked || free < 1.0;
         t *= free;
     }
-    for (bool first = true; t > smallest; t *= 0.5, first = false) {
+    for (bool first = true; t > tolerance::smallest_step; t *= 0.5, first = false) {
         VectorXd to = x + t * d;
         bool accepted = falls(to, t);
         if (!accepted && first && t == 1.0 && !problem.rows.empty()) {
@@ -255,7 +253,7 @@ struct ErrorWatch {
 /// Whether a step promised nothing but round-off where needles stop the gradient's fall.
 bool is_idle(const ActiveSet& active, const Step& step) {
     const Evaluation& is = step.state.is;
-    return step.promised <= 1e-15 * is.energy && !active.undecided &&
+    return step.promised <= tolerance::idle_decrease * is.energy && !active.undecided &&
            std::max(is.projected_gradient / tolerance::stalled_gradient,
                     is.worst_error / tolerance::solver_length) <= 1.0;
 }
@@ -288,7 +286,7 @@ End run(const Problem& problem, const Approach& approach, OptimalitySystem& syst
         if (approach.decrease > 0.0 && step.promised < approach.decrease * state.is.energy)
             return End::converged;
         if (contradicts) return End::contradictory;
-        if (step.length == 1.0 && state.is.distance_to_optimum() <= nearly_optimal)
+        if (step.length == 1.0 && state.is.distance_to_optimum() <= tolerance::nearly_optimal)
             state = solve_conditions(problem, system, active, std::move(state), effort, progress);
         if (step.length > 0.0) continue;
         // No part of the step could be taken: rows that it would have broken may be what it lacks.

@@ -12,8 +12,8 @@
 namespace lastflat {
 namespace {
 
-/// Places of the vertices for the dissection: flat, where a plane cuts a folded surface but once;
-/// the regions far from each other, so that the first planes run between them.
+/// Positions of the vertices for the dissection: flat, where a plane cuts a folded surface but
+/// once; the regions far from each other, so that the first planes run between them.
 Points2 spread_positions(const Domain& domain, const Eigen::VectorXd& x) {
     Points2 positions;
     positions.reserve(at(domain.vertices()));
@@ -220,8 +220,8 @@ void OptimalitySystem::add_row(Index unknown, const Row& row, const Eigen::Vecto
 /// nothing from the step; left free, its curvature away from the minimum may be negative. Where the
 /// scale is free as well, the fourth holds it. Of a region with one pin the first vertex is the
 /// pinned one; a region with more is held by them.
-void OptimalitySystem::hold_in_place(const Problem& problem, const Eigen::VectorXd& x,
-                                     double stiffness) {
+void OptimalitySystem::hold_still(const Problem& problem, const Eigen::VectorXd& x,
+                                  double stiffness) {
     const Domain& domain = problem.domain;
     for (std::size_t r = 0; r < domain.regions.size(); ++r) {
         std::set<Index> pinned;
@@ -258,7 +258,7 @@ double OptimalitySystem::fill(const Problem& problem, const Iterate& iterate,
     double trace = 0.0;
     for (Index i = 0; i < unknowns; ++i) trace += diagonal(i);
     const double mean = trace / unknowns;
-    hold_in_place(problem, iterate.x, tolerance::pin * mean);
+    hold_still(problem, iterate.x, tolerance::pin * mean);
     regularisation_ = tolerance::multiplier_regularisation / mean;
     regularised_.clear();
     for (std::size_t k = 0; k < problem.rows.size(); ++k) {
@@ -320,13 +320,12 @@ Eigen::VectorXd OptimalitySystem::solve(const Eigen::VectorXd& top,
     // Refinement takes the multipliers' regularisation out again: one step as a rule, more where a
     // soft row says nearly the same as exact ones.
     constexpr int most_steps = 4;
-    constexpr double enough = 1e-12;
     double before = infinity;
     for (int step = 0; step < most_steps; ++step) {
         Eigen::VectorXd rest = right - matrix_.selfadjointView<Eigen::Lower>() * solution;
         for (const Index row : regularised_) rest[row] -= regularisation_ * solution[row];
         const double norm = rest.norm();
-        if (norm <= enough * right.norm() || norm > 0.5 * before) break;
+        if (norm <= tolerance::refined * right.norm() || norm > 0.5 * before) break;
         before = norm;
         solution += solver_.solve(rest);
     }

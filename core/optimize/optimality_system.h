@@ -60,7 +60,7 @@ private:
     void add_terms(const Problem& problem, const Eigen::VectorXd& x, HessianKind kind);
     void add_row(Index unknown, const Row& row, const Eigen::VectorXd& x, double multiplier,
                  HessianKind kind);
-    void hold_in_place(const Problem& problem, const Eigen::VectorXd& x, double stiffness);
+    void hold_still(const Problem& problem, const Eigen::VectorXd& x, double stiffness);
     void shift_diagonal(double amount);
     void add_block(Index a, Index b, const Eigen::Matrix2d& block);
     [[nodiscard]] Slots slots_of(const Triangle& element) const;

@@ -8,7 +8,7 @@ namespace lastflat {
 
 /// A path of a region's vertices that is stiff.
 struct Wire {
-    std::size_t region;           ///< by its place in the domain
+    std::size_t region;           ///< by its index in the domain
     std::vector<Index> vertices;  ///< of the region; consecutive ones share an edge
 };
 

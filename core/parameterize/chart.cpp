@@ -47,15 +47,15 @@ std::vector<BorderCrossing> border_crossings(const Region& region, const Points2
     const auto loops = border_loops(region);
     for (const auto& loop : loops) {
         const Points2 line = flat_loop(loop, uv);
-        const auto place = [&](Index i) {
+        const auto position = [&](Index i) {
             return region.position(loop[static_cast<std::size_t>(i)]);
         };
         const auto found = self_crossings(line);
         for (const Crossing& crossing : found)
-            crossings.push_back({place(crossing.a), place(crossing.b)});
+            crossings.push_back({position(crossing.a), position(crossing.b)});
         const bool is_hole = &loop != &loops.front();
         if (found.empty() && (signed_area(line) > 0.0) == is_hole)
-            crossings.push_back({place(0), place(static_cast<Index>(loop.size() / 2))});
+            crossings.push_back({position(0), position(static_cast<Index>(loop.size() / 2))});
     }
     return crossings;
 }

@@ -20,7 +20,7 @@ struct Chart {
 /// A loop in the plane, in its order.
 [[nodiscard]] Points2 flat_loop(const std::vector<Index>& loop, const Points2& uv);
 
-/// Where a border loop crosses itself in the plane, or has its sides over each other: two places on
+/// Where a border loop crosses itself in the plane, or has its sides over each other: two points on
 /// the last.
 struct BorderCrossing {
     Vec3 a, b;

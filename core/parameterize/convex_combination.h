@@ -14,13 +14,14 @@ struct WeightedNeighbour {
 /// Per vertex its neighbours and their weights; empty: the vertex is fixed.
 using WeightRows = std::vector<std::vector<WeightedNeighbour>>;
 
-/// Places every vertex with a row at the weighted mean of its neighbours.
+/// Puts every vertex with a row at the weighted mean of its neighbours.
 ///
 /// Paper:  [floater-1997], section 3. If all weights are positive and the fixed vertices form a
 ///         strictly convex polygon around a triangulated disk, no triangle flips.
-/// In:     rows; `fixed`: a place for every vertex, read where the row is empty; the order in which
+/// In:     rows; `fixed`: a position for every vertex, read where the row is empty; the order in
+/// which
 ///         vertices are eliminated, of which those without a row are passed over.
-/// Out:    a place for every vertex; fixed ones as given.
+/// Out:    a position for every vertex; fixed ones as given.
 /// Throws: Error{solver_failed} if the system is singular.
 [[nodiscard]] Points2 solve_convex_combinations(const WeightRows& rows, const Points2& fixed,
                                                 const EliminationOrder& order);

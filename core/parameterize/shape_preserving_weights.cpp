@@ -31,10 +31,10 @@ std::vector<double> shape_preserving_weights(const Star& star) {
         if (directions[j + 1] - directions[j] > tolerance::widest_angle)
             return mean_value_weights(star);
     }
-    Points2 places;
+    Points2 flat;
     for (std::size_t j = 0; j < n; ++j) {
-        places.emplace_back(star.distances[j] * std::cos(directions[j]),
-                            star.distances[j] * std::sin(directions[j]));
+        flat.emplace_back(star.distances[j] * std::cos(directions[j]),
+                          star.distances[j] * std::sin(directions[j]));
     }
     std::vector<double> weights(n, 0.0);
     std::size_t facing =
@@ -47,8 +47,8 @@ std::vector<double> shape_preserving_weights(const Star& star) {
         facing = std::max(facing, l);
         while (begin_of(facing + 1) < opposite) ++facing;
         const std::size_t j = facing % n, k = star.next(j);
-        const double of_l = cross(places[j], places[k]), of_j = cross(places[k], places[l]),
-                     of_k = cross(places[l], places[j]);
+        const double of_l = cross(flat[j], flat[k]), of_j = cross(flat[k], flat[l]),
+                     of_k = cross(flat[l], flat[j]);
         const double sum = (of_l + of_j + of_k) * static_cast<double>(n);
         weights[l] += of_l / sum;
         weights[j] += of_j / sum;

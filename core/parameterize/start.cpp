@@ -76,7 +76,7 @@ Start energy_start(const Region& region, const Region& disk, const std::vector<b
         throw Error(ErrorCode::method_failed,
                     "region '" + region.name + "' has no start without folds: the geodesic fan (" +
                         why + ") and mean values on a circle (" + std::to_string(flipped.size()) +
-                        " triangles collapse, the first at " + place(where) +
+                        " triangles collapse, the first at " + position_text(where) +
                         "); cut the region so that it opens wider")
             .at_position(where)
             .at_triangles(source_triangles(region, flipped));
@@ -106,7 +106,7 @@ void warn_of_negative_weights(const Region& region, WeightRule rule,
     if (count > 0) {
         warnings.push_back({"negative_weights",
                             "region '" + region.name + "': " + std::to_string(count) +
-                                " weights are negative, the first at " + place(*where) +
+                                " weights are negative, the first at " + position_text(*where) +
                                 "; the map need not be free of folds",
                             where});
     }

@@ -21,7 +21,7 @@ struct Plan {
     enum class Found { none, some, all } found = Found::none;
 };
 
-/// The only place that decides. For a request that says nothing of cuts, seams, regions or groups
+/// It alone decides. For a request that says nothing of cuts, seams, regions or groups
 /// of a closed last, what it would have said is found (see `find_landmarks`). Curves that it does
 /// name stand in for those that would be found; without constraints the centre line is locked.
 ///

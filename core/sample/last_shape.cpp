@@ -173,8 +173,8 @@ double HalfOutline::parameter(double fraction) const {
 }
 
 Vec2 HalfOutline::at(double fraction) const {
-    const double place = parameter(fraction);
-    return {x_(place), y_(place)};
+    const double t = parameter(fraction);
+    return {x_(t), y_(t)};
 }
 
 Vec2 HalfOutline::tangent(double fraction) const {

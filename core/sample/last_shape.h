@@ -9,7 +9,7 @@ namespace lastflat {
 enum class Side { lateral, medial };
 
 /// One half of a closed outline seen from above, from its back end to its front end on the centre
-/// line; places on it are told by the fraction of its length.
+/// line; points on it are told by the fraction of its length.
 class HalfOutline {
 public:
     /// In: points from back to front, the first and the last with y = 0.

@@ -126,8 +126,8 @@ void add_upper(RawMesh& mesh, const LastShape& shape) {
     }
 }
 
-/// The column of the upper that a border place of a grid falls on: `i` runs from back to front, `j`
-/// from lateral to medial; each corner lies half the grid's width beside the back or the front.
+/// The column of the upper that a border vertex of a grid falls on: `i` runs from back to front,
+/// `j` from lateral to medial; each corner lies half the grid's width beside the back or the front.
 Index border_column(Index i, Index j) {
     if (j == 0) return across / 2 + i;
     if (i == along) return across / 2 + along + j;

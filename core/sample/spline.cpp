@@ -69,8 +69,8 @@ double CubicSpline::operator()(double x) const {
 Vec3 wall_point(const WallControls& controls, double t) {
     constexpr std::size_t degree = 3;
     constexpr std::size_t spans = wall_controls - degree;
-    const double place = std::clamp(t, 0.0, 1.0) * static_cast<double>(spans);
-    const std::size_t span = std::min(static_cast<std::size_t>(place), spans - 1);
+    const double position = std::clamp(t, 0.0, 1.0) * static_cast<double>(spans);
+    const std::size_t span = std::min(static_cast<std::size_t>(position), spans - 1);
     // Knots 0 0 0 0 1 2 3 4 4 4 4: the repeated end knots pin the curve to its end points.
     const auto knot = [](std::size_t i) {
         return std::clamp(static_cast<double>(i) - static_cast<double>(degree), 0.0,
@@ -83,7 +83,7 @@ Vec3 wall_point(const WallControls& controls, double t) {
         for (std::size_t i = degree; i >= round; --i) {
             const double low = knot(span + i);
             const double high = knot(span + i + degree + 1 - round);
-            const double weight = (place - low) / (high - low);
+            const double weight = (position - low) / (high - low);
             points[i] = (1.0 - weight) * points[i - 1] + weight * points[i];
         }
     }

@@ -38,20 +38,20 @@ void insert_into_edges(Faces& faces, const Insertions& insertions) {
     };
     for (std::size_t t = 0; t < faces.triangles.size(); ++t) file(t);
     for (const auto& [edge, inserted] : insertions) {
-        const std::size_t place = triangle_of.at(edge);
-        const Triangle whole = faces.triangles[place];
+        const std::size_t t = triangle_of.at(edge);
+        const Triangle whole = faces.triangles[t];
         std::size_t corner = 0;
         while (whole[corner] != edge.first) ++corner;
         const Index apex = whole[(corner + 2) % 3];
         Index from = edge.first;
         for (const Index vertex : inserted) {
             faces.triangles.push_back({from, vertex, apex});
-            faces.labels.push_back(faces.labels[place]);
+            faces.labels.push_back(faces.labels[t]);
             file(faces.triangles.size() - 1);
             from = vertex;
         }
-        faces.triangles[place] = {from, edge.second, apex};
-        file(place);
+        faces.triangles[t] = {from, edge.second, apex};
+        file(t);
     }
 }
 

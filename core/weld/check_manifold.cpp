@@ -8,7 +8,7 @@ namespace lastflat {
 namespace {
 
 [[noreturn]] void fail(ErrorCode code, const std::string& what, const Vec3& position) {
-    throw Error(code, what + " at " + place(position)).at_position(position);
+    throw Error(code, what + " at " + position_text(position)).at_position(position);
 }
 
 Index corner_id(const Side& side, Index offset) {

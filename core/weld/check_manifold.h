@@ -5,7 +5,7 @@
 
 namespace lastflat {
 
-/// Throws: Error{mesh_not_manifold, mesh_not_oriented} with the first place, if an edge has more
+/// Throws: Error{mesh_not_manifold, mesh_not_oriented} with the first position, if an edge has more
 ///         than two triangles, two triangles wind against each other, or the triangles around a
 ///         vertex form more than one fan.
 void check_manifold(const Points3& positions, const std::vector<Triangle>& triangles);

@@ -27,10 +27,10 @@ void drop_collapsed(Faces& faces, RepairNote& note) {
 void drop_repeated(Faces& faces, RepairNote& note) {
     std::set<Triangle> known;
     faces.keep_if([&](Triangle t) {
-        const Vec3& place = faces.position(t[0]);
+        const Vec3& position = faces.position(t[0]);
         std::sort(t.begin(), t.end());
         if (known.insert(t).second) return true;
-        note.at(place);
+        note.at(position);
         return false;
     });
 }

@@ -14,7 +14,7 @@ namespace lastflat {
 namespace {
 
 constexpr int most_rounds = 8;
-/// The way along the border between two places that are joined is so many times their distance.
+/// The way along the border between two points that are joined is so many times their distance.
 constexpr double least_detour = 4.0;
 
 /// One edge of a border loop, and its first vertex.
@@ -169,10 +169,10 @@ bool join_once(Faces& faces, double tolerance, double& furthest, RepairNote& joi
                RepairNote& inserted) {
     const std::map<Index, Index> pairs = Borders(faces, tolerance).pairs();
     for (const auto& [v, w] : pairs) {
-        Vec3& place = faces.positions[static_cast<std::size_t>(w)];
-        const Vec3 middle = 0.5 * (place + faces.position(v));
-        furthest = std::max(furthest, (middle - place).norm());
-        place = middle;
+        Vec3& position = faces.positions[static_cast<std::size_t>(w)];
+        const Vec3 middle = 0.5 * (position + faces.position(v));
+        furthest = std::max(furthest, (middle - position).norm());
+        position = middle;
         joined.at(middle);
     }
     rename_vertices(faces, pairs);

@@ -1,4 +1,4 @@
-// Vertices of one place become one vertex.
+// Vertices of one position become one vertex.
 #pragma once
 
 #include "core/numerics/types.h"

@@ -12,16 +12,16 @@ struct Repair {
     std::string code;
     std::string detail;   ///< what was done, for people
     std::size_t count;    ///< how often
-    Points3 positions{};  ///< where, mm; the first `most_places`
+    Points3 positions{};  ///< where, mm; the first `most_listed`
 
-    static constexpr std::size_t most_places = 10;
+    static constexpr std::size_t most_listed = 10;
 };
 
-/// Collects the places of one kind of repair.
+/// Collects the positions of one kind of repair.
 class RepairNote {
 public:
     void at(const Vec3& position) {
-        if (++count_ <= Repair::most_places) positions_.push_back(position);
+        if (++count_ <= Repair::most_listed) positions_.push_back(position);
     }
     [[nodiscard]] std::size_t count() const { return count_; }
     /// Appends the repair if there was any.

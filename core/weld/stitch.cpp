@@ -18,7 +18,7 @@
 namespace lastflat {
 namespace {
 
-/// The nearest place of one loop.
+/// The nearest point of one loop.
 struct Foot {
     std::size_t edge;  ///< from this vertex of the loop to the next
     double along;
@@ -95,7 +95,7 @@ public:
             step -= b_.length * std::round(step / b_.length);
             if (i > 0) at += step;
             last = foot->along;
-            places_of_a_.push_back(at);
+            along_of_a_.push_back(at);
         }
         double step = feet_of_a_.front().along - last;
         step -= b_.length * std::round(step / b_.length);
@@ -130,10 +130,10 @@ private:
         const double sign = turns_ < 0.0 ? -1.0 : 1.0;
         std::vector<Bead> beads;
         for (std::size_t i = 0; i < a_.size(); ++i) {
-            // Where the nearest places run backwards for a while, the order along a counts.
+            // Where the nearest points run backwards for a while, the order along a counts.
             const double before = beads.empty() ? 0.0 : beads.back().at;
             const Vec3 middle = 0.5 * (faces_.position(a_.vertex(i)) + feet_of_a_[i].position);
-            beads.push_back({std::min(std::max(before, sign * places_of_a_[i]), b_.length),
+            beads.push_back({std::min(std::max(before, sign * along_of_a_[i]), b_.length),
                              a_.vertex(i), -1, middle});
         }
         const std::size_t count = beads.size();
@@ -165,7 +165,7 @@ private:
         double least = tolerance::needle * std::min(before, after);
         const auto after_it =
             std::lower_bound(beads.begin(), beads.begin() + static_cast<std::ptrdiff_t>(count), at,
-                             [](const Bead& bead, double place) { return bead.at < place; });
+                             [](const Bead& bead, double along) { return bead.at < along; });
         const auto middle = static_cast<std::size_t>(after_it - beads.begin());
         for (std::size_t k = middle + count - 2; k < middle + count + 2; ++k) {
             const std::size_t i = k % count;
@@ -213,26 +213,26 @@ private:
     Faces& faces_;
     const Loop &a_, &b_;
     std::vector<Foot> feet_of_a_, feet_of_b_;
-    std::vector<double> places_of_a_;
+    std::vector<double> along_of_a_;
     double turns_ = 0.0;
 };
 
-/// Border vertices of one and the same place become one: seams within a patch.
-void join_same_places(Faces& faces, double tolerance, RepairNote& note) {
+/// Border vertices of one and the same position become one: seams within a patch.
+void join_same_positions(Faces& faces, double tolerance, RepairNote& note) {
     std::vector<Index> vertices;
-    Points3 places;
+    Points3 positions;
     for (const Loop& loop : border_loops(faces)) {
         for (const Index v : loop.vertices) {
             vertices.push_back(v);
-            places.push_back(faces.position(v));
+            positions.push_back(faces.position(v));
         }
     }
-    const std::vector<Index> same = merge_vertices(places, tolerance);
+    const std::vector<Index> same = merge_vertices(positions, tolerance);
     std::map<Index, Index> renamed;
     for (std::size_t i = 0; i < same.size(); ++i) {
         const Index stays = vertices[static_cast<std::size_t>(same[i])];
         if (stays == vertices[i]) continue;
-        note.at(places[i]);
+        note.at(positions[i]);
         renamed[vertices[i]] = stays;
     }
     rename_vertices(faces, renamed);
@@ -312,7 +312,7 @@ void stitch(Faces& faces, double tolerance_mm, std::vector<Repair>& repairs) {
     RepairNote same, joined, inserted;
     double furthest = 0.0;
     constexpr int most_seams = 64;
-    join_same_places(faces, tolerance::same_border_vertex * tolerance_mm, same);
+    join_same_positions(faces, tolerance::same_border_vertex * tolerance_mm, same);
     for (int seam = 0; seam < most_seams; ++seam) {
         if (!zip_one_pair(faces, tolerance_mm, furthest, joined, inserted)) break;
     }

@@ -9,7 +9,7 @@ namespace lastflat {
 /// ones.
 void close_t_junctions(Faces& faces, double tolerance_mm, std::vector<Repair>& repairs);
 
-/// Closes gaps between borders. Border vertices of one and the same place become one; two loops
+/// Closes gaps between borders. Border vertices of one and the same position become one; two loops
 /// that then run along each other all the way, nowhere further apart than `tolerance_mm`, become
 /// one line of edges halfway between them. A vertex without a partner on the other side is put into
 /// the edge that it lies beside (T-junctions). What is left, borders that run along each other for

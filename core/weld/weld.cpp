@@ -61,7 +61,7 @@ void check_shapes(const Points3& positions, const std::vector<Triangle>& triangl
             throw Error(ErrorCode::mesh_degenerate, "triangle " + std::to_string(triangles[t][0]) +
                                                         " " + std::to_string(triangles[t][1]) +
                                                         " " + std::to_string(triangles[t][2]) +
-                                                        " has no area, at " + place(at(0)) +
+                                                        " has no area, at " + position_text(at(0)) +
                                                         "; remove it or mend the mesh there")
                 .at_position(at(0));
         }
@@ -101,7 +101,7 @@ TriMesh build(const Points3& positions, const std::vector<Triangle>& triangles) 
         if (!face.is_valid()) {
             const Vec3& p = positions[static_cast<std::size_t>(t[0])];
             throw Error(ErrorCode::mesh_not_manifold,
-                        "the faces around " + place(p) + " do not form a surface")
+                        "the faces around " + position_text(p) + " do not form a surface")
                 .at_position(p);
         }
     }
@@ -119,7 +119,8 @@ double size_of(const Faces& faces) {
 void merge_places(const RawMesh& raw, const WeldOptions& options, Faces& faces) {
     if (options.tolerance_mm || !raw.indexed) {
         faces.welded_to = merge_vertices(
-            faces.positions, options.tolerance_mm.value_or(tolerance::same_place * size_of(faces)));
+            faces.positions,
+            options.tolerance_mm.value_or(tolerance::same_position * size_of(faces)));
         faces.rename();
     } else {
         faces.welded_to = each_for_itself(faces.positions.size());
@@ -217,7 +218,7 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options) {
     if (faces.triangles.empty())
         throw Error(ErrorCode::mesh_degenerate, "no face is left to flatten");
     if (options.tolerance_mm || !raw.indexed)
-        close_t_junctions(faces, tolerance::same_place * size_of(faces), result.repairs);
+        close_t_junctions(faces, tolerance::same_position * size_of(faces), result.repairs);
     wind_alike(faces, result.repairs);
     drop_strays(faces, result.repairs);
     close_borders(options, faces, result.repairs);

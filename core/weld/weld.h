@@ -14,7 +14,7 @@ namespace lastflat {
 /// Out:    `repairs` says what was done: repeated and flat faces left out, faces turned, loose
 ///         pieces dropped, borders stitched, a closed model that was inside out turned.
 /// Throws: Error{group_not_found, mesh_not_manifold, mesh_not_oriented (it has no two sides),
-///         mesh_degenerate, model_too_large}, with the place in mm.
+///         mesh_degenerate, model_too_large}, with the position in mm.
 [[nodiscard]] SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options = {});
 
 }  // namespace lastflat

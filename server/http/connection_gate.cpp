@@ -152,18 +152,18 @@ void ConnectionGate::add(Arrival arrival) {
     const bool reading = arrival.state == State::reading;
     std::list<Connection>& list = reading ? reading_ : lingering_;
     const auto time = reading ? limits_.head_time : linger_time;
-    const auto place = list.emplace(list.end());
-    place->socket = std::move(arrival.socket);
-    place->state = arrival.state;
-    place->deadline = Clock::now() + time;
-    place->place = place;
+    const auto entry = list.emplace(list.end());
+    entry->socket = std::move(arrival.socket);
+    entry->state = arrival.state;
+    entry->deadline = Clock::now() + time;
+    entry->self = entry;
     epoll_event event{};
     event.events = EPOLLIN;
-    event.data.ptr = &*place;
-    place->bytes = std::move(arrival.bytes);
-    if (::epoll_ctl(epoll_.fd(), EPOLL_CTL_ADD, place->socket.fd(), &event) != 0)
-        return drop(*place);
-    if (reading && !place->bytes.empty()) look_for_head(*place, 0);
+    event.data.ptr = &*entry;
+    entry->bytes = std::move(arrival.bytes);
+    if (::epoll_ctl(epoll_.fd(), EPOLL_CTL_ADD, entry->socket.fd(), &event) != 0)
+        return drop(*entry);
+    if (reading && !entry->bytes.empty()) look_for_head(*entry, 0);
 }
 
 void ConnectionGate::on_ready(Connection& connection) {
@@ -204,7 +204,7 @@ void ConnectionGate::hand_on(Connection& connection, std::size_t head_size) {
     ::epoll_ctl(epoll_.fd(), EPOLL_CTL_DEL, fd, nullptr);
     const auto reply = on_head_(connection.socket, connection.bytes, head_size);
     if (!connection.socket.is_open()) {
-        reading_.erase(connection.place);
+        reading_.erase(connection.self);
         return;
     }
     epoll_event event{};
@@ -227,7 +227,7 @@ void ConnectionGate::answer(Connection& connection, const std::string& bytes) {
     connection.state = State::lingering;
     connection.deadline = Clock::now() + linger_time;
     connection.bytes = std::string();
-    lingering_.splice(lingering_.end(), reading_, connection.place);
+    lingering_.splice(lingering_.end(), reading_, connection.self);
 }
 
 void ConnectionGate::drain(Connection& connection) {
@@ -249,7 +249,7 @@ void ConnectionGate::drop(Connection& connection) {
     // Closing the socket would not take it out of epoll while a process that is just being started
     // still holds a copy of it.
     ::epoll_ctl(epoll_.fd(), EPOLL_CTL_DEL, connection.socket.fd(), nullptr);
-    list.erase(connection.place);
+    list.erase(connection.self);
 }
 
 void ConnectionGate::drop_overdue() {

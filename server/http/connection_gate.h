@@ -57,7 +57,7 @@ private:
         Clock::time_point deadline;
         std::string bytes;        ///< read so far
         std::size_t drained = 0;  ///< bytes thrown away while lingering
-        std::list<Connection>::iterator place;
+        std::list<Connection>::iterator self;
     };
     struct Arrival {
         Socket socket;

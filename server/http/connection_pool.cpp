@@ -75,7 +75,7 @@ void ConnectionPool::work() {
         }
         lock.lock();
         --serving_;
-        // One of those that wait for a place may go on; at the end, all must look.
+        // One of those that wait for a seat may go on; at the end, all must look.
         if (finishing_)
             changed_.notify_all();
         else

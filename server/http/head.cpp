@@ -142,13 +142,13 @@ void add_header(std::map<std::string, std::string>& headers, std::string_view li
                            "The header '" + name +
                                "' has a control character in its value, plain or percent-encoded.");
     }
-    const auto [place, added] = headers.emplace(name, value);
+    const auto [field, added] = headers.emplace(name, value);
     if (added) return;
     if (must_be_single(name)) {
         throw api::Refusal("repeated_header",
                            "The header '" + name + "' is there more than once. Send it once.");
     }
-    place->second.append(", ").append(value);
+    field->second.append(", ").append(value);
 }
 
 void check_host(const Request& request, bool is_http_1_0) {

@@ -34,7 +34,7 @@ public:
     virtual void leave() = 0;
 };
 
-/// A place in the waiting room, if there was one.
+/// A seat in the waiting room, if there was one.
 class Seat {
 public:
     explicit Seat(WaitingRoom* room) : room_(room != nullptr && room->enter() ? room : nullptr) {}

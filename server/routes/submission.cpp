@@ -33,10 +33,10 @@ Submission from_parts(const http::Request& request) {
                          *material = nullptr;
     std::vector<const http::BodyPart*> buffers;
     for (const http::BodyPart& part : request.body) {
-        const auto take = [&](const http::BodyPart*& place) {
-            if (place != nullptr)
+        const auto take = [&](const http::BodyPart*& slot) {
+            if (slot != nullptr)
                 api::refuse("part_repeated", "the part '" + part.name + "' is there twice");
-            place = &part;
+            slot = &part;
         };
         if (part.name == "model")
             take(model);

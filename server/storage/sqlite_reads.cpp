@@ -22,7 +22,7 @@ std::string select_list(const std::string& owner, const JobFilter& filter) {
     return sql + " ORDER BY seq DESC LIMIT ?7";
 }
 
-std::size_t place_in_queue(SqliteConnection& connection, std::int64_t seq) {
+std::size_t queue_position_of(SqliteConnection& connection, std::int64_t seq) {
     Query query(
         connection.prepared("SELECT count(*) FROM jobs WHERE state = 'queued' AND seq <= ?"));
     return query.bind(seq).next() ? static_cast<std::size_t>(query.number(0)) : 0;
@@ -36,7 +36,7 @@ std::optional<JobRecord> SqliteStore::find(const std::string& owner, const std::
         if (!query.bind(id, owner).next()) return std::nullopt;
         JobRecord job = record_of(query, retention_);
         if (job.state == JobState::queued)
-            job.queue_position = place_in_queue(connection, query.number(0));
+            job.queue_position = queue_position_of(connection, query.number(0));
         return job;
     });
 }
@@ -66,7 +66,7 @@ JobList SqliteStore::list(const std::string& owner, const JobFilter& filter) {
             last = query.number(0);
             list.jobs.push_back(record_of(query, retention_));
             if (list.jobs.back().state == JobState::queued)
-                list.jobs.back().queue_position = place_in_queue(connection, last);
+                list.jobs.back().queue_position = queue_position_of(connection, last);
         }
         return list;
     });

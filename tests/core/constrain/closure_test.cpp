@@ -16,8 +16,8 @@ Constraint straight(const std::string& curve, const std::string& region = "") {
     return {Straight{curve, region}};
 }
 
-Constraint pin(Index vertex, const Vec2& place) {
-    return {Pin{vertex, place}};
+Constraint pin(Index vertex, const Vec2& at) {
+    return {Pin{vertex, at}};
 }
 
 Constraint area(double percent) {
@@ -59,7 +59,7 @@ std::vector<Constraint> locked_neighbourhood(Region& region, Index centre,
     return constraints;
 }
 
-using Places = std::vector<std::size_t>;
+using Indices = std::vector<std::size_t>;
 
 const double no_bound = std::numeric_limits<double>::infinity();
 
@@ -72,11 +72,11 @@ TEST_SUITE("core/constrain/closure") {
         CHECK_FALSE(found(region, {lock("bottom"), lock("right"), lock("top"), lock("left")}));
     }
 
-    TEST_CASE("two vertices pinned to one place, and no others") {
+    TEST_CASE("two vertices pinned to one point, and no others") {
         const Region region = test::dome(6, 0.6);
         const auto loop = found(region, {lock("left"), pin(6, {5, 5}), pin(0, {5, 5})});
         REQUIRE(loop.has_value());
-        CHECK(loop->constraints == Places{1, 2});
+        CHECK(loop->constraints == Indices{1, 2});
         CHECK(loop->gap_mm == doctest::Approx(region.distance(0, 6)));
         CHECK_FALSE(found(region, {pin(0, {5, 5}), pin(6, {5, 5.001})}));
         CHECK_FALSE(found(region, {pin(0, {5, 5}), pin(0, {5, 5})}));
@@ -88,7 +88,7 @@ TEST_SUITE("core/constrain/closure") {
         CHECK_FALSE(found(flat, locked_neighbourhood(flat, 4)));
         const auto loop = found(steep, locked_neighbourhood(steep, 4));
         REQUIRE(loop.has_value());
-        CHECK(loop->constraints == Places{0, 1, 2, 3, 4, 5, 6, 7});
+        CHECK(loop->constraints == Indices{0, 1, 2, 3, 4, 5, 6, 7});
         CHECK((loop->position - Vec3(10, 10, 5)).norm() < 1e-12);
         // Spokes to the middles of the sides and to the corners, by turns.
         const double side = std::sqrt(100.0 + 25.0), corner = std::sqrt(200.0 + 25.0);
@@ -118,7 +118,7 @@ TEST_SUITE("core/constrain/closure") {
         const auto loop = with_others(-50.0);
         REQUIRE(loop.has_value());
         CHECK(loop->gap_mm == doctest::Approx(20.0));
-        CHECK(loop->constraints == Places{0, 1, 2, 3, 4});
+        CHECK(loop->constraints == Indices{0, 1, 2, 3, 4});
         CHECK_FALSE(with_others(no_bound));
     }
 
@@ -157,7 +157,7 @@ TEST_SUITE("core/constrain/closure") {
         CHECK_FALSE(with_area(-90.0));
         const auto loop = with_area(80.0);
         REQUIRE(loop.has_value());
-        CHECK(loop->constraints == Places{0, 1, 2, 3, 4});
+        CHECK(loop->constraints == Indices{0, 1, 2, 3, 4});
         CHECK(loop->gap_mm == doctest::Approx(std::sqrt(4.0 * std::numbers::pi * 5400.0) - 260.0));
         CHECK_FALSE(found(region, {lock("bottom"), lock("right"), lock("left"), area(900.0)}));
     }

@@ -93,7 +93,7 @@ TEST_SUITE("core/constrain/constraint_rows") {
         CHECK(one.chart.minimum.iterations <= unpinned.iterations + 2);
         CHECK(solve({region}, {{far}, {Straight{"left"}}}).reports[1].kept);
         const Solved two = solve({region}, {{a}, {b}});
-        CHECK((two.chart.minimum.charts[0].uv[168] - b.place).norm() < 1e-9);
+        CHECK((two.chart.minimum.charts[0].uv[168] - b.at).norm() < 1e-9);
         CHECK(two.chart.minimum.energy > free);
     }
 

@@ -37,8 +37,8 @@ std::vector<HoleSeam> seams(const Region& region, HoleRule rule, bool is_first =
     return seams_of_next_hole(region, rule, is_first, Progress());
 }
 
-bool on_loop(const std::vector<Index>& loop, const SurfacePlace& place) {
-    return std::find(loop.begin(), loop.end(), place.vertex()) != loop.end();
+bool on_loop(const std::vector<Index>& loop, const SurfacePoint& point) {
+    return std::find(loop.begin(), loop.end(), point.vertex()) != loop.end();
 }
 
 }  // namespace
@@ -127,7 +127,7 @@ TEST_SUITE("core/cut/open_holes") {
         CHECK(opened[0].curve.empty());
         CHECK(opened[0].length == doctest::Approx(3.0));
         CHECK(opened[0].curvature == doctest::Approx(2 * pi));
-        const auto &first = opened[0].places.front(), &last = opened[0].places.back();
+        const auto &first = opened[0].points.front(), &last = opened[0].points.back();
         CHECK(on_loop(tube[0].border, first) != on_loop(tube[0].border, last));
         CHECK(on_loop(tube[0].holes[0], first) != on_loop(tube[0].holes[0], last));
     }
@@ -158,8 +158,8 @@ TEST_SUITE("core/cut/open_holes") {
         const auto regions = cut(upper);
         const auto opened = seams(regions[0], HoleRule::automatic);
         REQUIRE(opened.size() == 1);
-        CHECK(opened[0].places.front().vertex() == 12);  // at x = -40
-        CHECK(opened[0].places.back().vertex() == 4 * 24 + 12);
+        CHECK(opened[0].points.front().vertex() == 12);  // at x = -40
+        CHECK(opened[0].points.back().vertex() == 4 * 24 + 12);
         // A shorter way leads up the side, which any further hole would take.
         const auto second = seams(regions[0], HoleRule::automatic, false);
         REQUIRE(second.size() == 1);

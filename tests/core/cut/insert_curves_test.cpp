@@ -112,13 +112,13 @@ TEST_SUITE("core/cut/insert_curves") {
         // Along every old edge, the pieces add up to its length.
         std::map<std::pair<Index, Index>, std::vector<double>> on_edge;
         for (std::size_t k = 0; k < inserted.added.size(); ++k) {
-            const SurfacePlace& place = inserted.added[k];
+            const SurfacePoint& point = inserted.added[k];
             const auto vertex = static_cast<Index>(before.mesh.n_vertices() + k);
-            CHECK((position_of(before, place) - surface.position(vertex)).norm() < 1e-12);
-            const auto support = place.support();
+            CHECK((position_of(before, point) - surface.position(vertex)).norm() < 1e-12);
+            const auto support = point.support();
             if (support.size() == 2)
                 on_edge[std::minmax(support[0], support[1])].push_back(
-                    place.weight_of(std::max(support[0], support[1])));
+                    point.weight_of(std::max(support[0], support[1])));
         }
         for (const auto edge : before.mesh.edges()) {
             const auto h = before.mesh.halfedge_handle(edge, 0);
@@ -135,9 +135,9 @@ TEST_SUITE("core/cut/insert_curves") {
         const std::vector<PointSource> points{{"a", Vec3(0.4, 33, 0)}, {"b", 20 * 21 + 7}};
         const auto lines = locate_curves(surface, {geodesic("ab", {"a", "b"})}, points);
         double along = 0.0;
-        for (std::size_t i = 1; i < lines[0].places.size(); ++i)
-            along += (position_of(surface, lines[0].places[i]) -
-                      position_of(surface, lines[0].places[i - 1]))
+        for (std::size_t i = 1; i < lines[0].points.size(); ++i)
+            along += (position_of(surface, lines[0].points[i]) -
+                      position_of(surface, lines[0].points[i - 1]))
                          .norm();
         const InsertedCurves inserted = insert_curves(surface, lines);
         CHECK(length(surface, inserted.curves[0]) == doctest::Approx(along).epsilon(1e-9));

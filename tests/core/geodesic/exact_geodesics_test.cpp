@@ -15,8 +15,8 @@ double at(const GeodesicDistances& distances, Index v) {
 double length_of(const Region& region, const GeodesicPath& path) {
     double length = 0;
     for (std::size_t i = 1; i < path.points.size(); ++i) {
-        length += (place_of(path.points[i], region.positions) -
-                   place_of(path.points[i - 1], region.positions))
+        length += (position_of(path.points[i], region.positions) -
+                   position_of(path.points[i - 1], region.positions))
                       .norm();
     }
     return length;

@@ -44,7 +44,7 @@ Points2 placed(const Region& region, const Chart& chart, const Placement& placem
     return outline;
 }
 
-Vec2 place_of(const Chart& chart, const Placement& placement, Index vertex) {
+Vec2 position_of(const Chart& chart, const Placement& placement, Index vertex) {
     return placement.apply(chart.uv[static_cast<std::size_t>(vertex)]);
 }
 
@@ -68,8 +68,8 @@ void check_pair(std::vector<Region> regions, double angle, double other_angle) {
     CHECK(sheet.placements[0].mirrored != sheet.placements[1].mirrored);
     for (std::size_t r = 0; r < 2; ++r) {
         const Placement& p = sheet.placements[r];
-        const Vec2 seat = place_of(charts[r], p, 0), toe = place_of(charts[r], p, 12),
-                   top = place_of(charts[r], p, 6 * 13 + 6);
+        const Vec2 seat = position_of(charts[r], p, 0), toe = position_of(charts[r], p, 12),
+                   top = position_of(charts[r], p, 6 * 13 + 6);
         CHECK(toe.x() > seat.x() + 100);
         CHECK(toe.y() == doctest::Approx(seat.y()));
         CHECK(top.y() > seat.y() + 50);
@@ -123,8 +123,8 @@ TEST_SUITE("core/layout") {
         const Sheet sheet = arrange_pair(regions, charts, 10.0);
         CHECK(sheet.placements[0].mirrored != sheet.placements[1].mirrored);
         const auto toe_to_the_right = [&](std::size_t r) {
-            return place_of(charts[r], sheet.placements[r], 12).x() >
-                   place_of(charts[r], sheet.placements[r], 0).x();
+            return position_of(charts[r], sheet.placements[r], 12).x() >
+                   position_of(charts[r], sheet.placements[r], 0).x();
         };
         CHECK(toe_to_the_right(0) == toe_to_the_right(1));
     }

@@ -43,7 +43,7 @@ TEST_SUITE("core/measure/measure_stretch") {
         const Points2 uv = test::flattened({&region}, {}).minimum.charts[0].uv;
         const StretchReport report = measure_stretch(region, uv, {});
         REQUIRE(report.worst.size() == 10);
-        const auto worst = [](const WorstPlace& p) {
+        const auto worst = [](const WorstStrain& p) {
             return std::max(std::abs(p.larger_percent), std::abs(p.smaller_percent));
         };
         CHECK(worst(report.worst[0]) == doctest::Approx(std::max(report.most_stretched_percent,

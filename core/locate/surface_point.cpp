@@ -1,29 +1,29 @@
-#include "core/locate/surface_place.h"
+#include "core/locate/surface_point.h"
 
 #include <algorithm>
 
 namespace lastflat {
 
-SurfacePlace between(const SurfacePlace& a, const SurfacePlace& b, double share) {
+SurfacePoint between(const SurfacePoint& a, const SurfacePoint& b, double share) {
     std::vector<Index> vertices = a.support();
     for (const Index v : b.support()) {
         if (!contains(vertices, v)) vertices.push_back(v);
     }
-    SurfacePlace place;
-    place.corners.fill(vertices.front());
+    SurfacePoint point;
+    point.corners.fill(vertices.front());
     for (std::size_t i = 0; i < std::min<std::size_t>(vertices.size(), 3); ++i) {
-        place.corners[i] = vertices[i];
-        place.weights[static_cast<Eigen::Index>(i)] =
+        point.corners[i] = vertices[i];
+        point.weights[static_cast<Eigen::Index>(i)] =
             (1.0 - share) * a.weight_of(vertices[i]) + share * b.weight_of(vertices[i]);
     }
-    return place;
+    return point;
 }
 
-Vec3 position_of(const SurfaceMesh& surface, const SurfacePlace& place) {
+Vec3 position_of(const SurfaceMesh& surface, const SurfacePoint& point) {
     Vec3 position = Vec3::Zero();
     for (std::size_t i = 0; i < 3; ++i) {
-        const double weight = place.weights[static_cast<Eigen::Index>(i)];
-        if (weight != 0.0) position += weight * surface.position(place.corners[i]);
+        const double weight = point.weights[static_cast<Eigen::Index>(i)];
+        if (weight != 0.0) position += weight * surface.position(point.corners[i]);
     }
     return position;
 }
@@ -35,8 +35,8 @@ Triangle corners_of(const SurfaceMesh& surface, Index face) {
     return corners;
 }
 
-std::vector<Index> faces_at(const SurfaceMesh& surface, const SurfacePlace& place) {
-    const std::vector<Index> support = place.support();
+std::vector<Index> faces_at(const SurfaceMesh& surface, const SurfacePoint& point) {
+    const std::vector<Index> support = point.support();
     std::vector<Index> faces;
     for (const auto face : surface.mesh.vf_range(OpenMesh::VertexHandle(support.front()))) {
         const Triangle corners = corners_of(surface, face.idx());

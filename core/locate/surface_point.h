@@ -1,4 +1,4 @@
-// A place on the surface, in terms of the vertices it had before any curve was put in.
+// A point on the surface, in terms of the vertices it had before any curve was put in.
 #pragma once
 
 #include <algorithm>
@@ -7,20 +7,20 @@
 
 namespace lastflat {
 
-/// The weighted mean of a triangle's corners. A weight of exactly 0: the place is on the opposite
+/// The weighted mean of a triangle's corners. A weight of exactly 0: the point is on the opposite
 /// edge; two of them: at a vertex. A vertex of the surface has itself in all three corners.
-struct SurfacePlace {
+struct SurfacePoint {
     Triangle corners{-1, -1, -1};
     Vec3 weights = Vec3::Zero();
 
-    [[nodiscard]] static SurfacePlace at_vertex(Index vertex) {
+    [[nodiscard]] static SurfacePoint at_vertex(Index vertex) {
         return {{vertex, vertex, vertex}, {1.0, 0.0, 0.0}};
     }
     /// On the edge from a to b, at this share of the way.
-    [[nodiscard]] static SurfacePlace on_edge(Index a, Index b, double share) {
+    [[nodiscard]] static SurfacePoint on_edge(Index a, Index b, double share) {
         return {{a, b, a}, {1.0 - share, share, 0.0}};
     }
-    /// How much of the place a vertex is.
+    /// How much of the point a vertex is.
     [[nodiscard]] double weight_of(Index vertex) const {
         double sum = 0.0;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -28,7 +28,7 @@ struct SurfacePlace {
         }
         return sum;
     }
-    /// The vertex, if the place is at one; else -1.
+    /// The vertex, if the point is at one; else -1.
     [[nodiscard]] Index vertex() const {
         for (std::size_t i = 0; i < 3; ++i) {
             if (weight_of(corners[i]) == 1.0) return corners[i];
@@ -47,13 +47,13 @@ struct SurfacePlace {
     }
 };
 
-/// The place between two of which one triangle holds both.
-[[nodiscard]] SurfacePlace between(const SurfacePlace& a, const SurfacePlace& b, double share);
+/// The point between two of which one triangle holds both.
+[[nodiscard]] SurfacePoint between(const SurfacePoint& a, const SurfacePoint& b, double share);
 
-[[nodiscard]] Vec3 position_of(const SurfaceMesh& surface, const SurfacePlace& place);
+[[nodiscard]] Vec3 position_of(const SurfaceMesh& surface, const SurfacePoint& point);
 
-/// The faces that hold the place: one inside a face, two on an edge, all around a vertex.
-[[nodiscard]] std::vector<Index> faces_at(const SurfaceMesh& surface, const SurfacePlace& place);
+/// The faces that hold the point: one inside a face, two on an edge, all around a vertex.
+[[nodiscard]] std::vector<Index> faces_at(const SurfaceMesh& surface, const SurfacePoint& point);
 
 [[nodiscard]] Triangle corners_of(const SurfaceMesh& surface, Index face);
 
