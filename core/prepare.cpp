@@ -55,7 +55,7 @@ Prepared prepare(SurfaceMesh surface, Plan plan, Progress& progress) {
     Prepared prepared;
     prepared.constraints = constraints_of(plan, cut.seams);
     check_constraints(prepared.constraints, cut.inserted.curves, cut.regions);
-    (void)coupled_regions(cut.regions, prepared.constraints);
+    (void)coupled_regions(cut.regions, prepared.constraints);  // refuses before the maps are made
     check_zones(plan.request.weights.zones, cut.inserted.curves, cut.regions);
     prepared.warnings = std::move(surface.warnings);
     if (plan.landmarks) append(prepared.warnings, plan.landmarks->warnings);

@@ -59,7 +59,6 @@ Minimum minimise_distortion(const Problem& approach, const Problem& problem,
     Minimum minimum =
         minimise(problem, Iterate::at(moved_to_pins(problem, x), problem), {}, system, progress);
     minimum.iterations += near.iterations;
-    minimum.factorizations += near.factorizations;
     return minimum;
 }
 

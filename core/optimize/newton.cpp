@@ -194,21 +194,17 @@ std::optional<State> stepped_to_conditions(const Problem& problem, const Optimal
     return std::nullopt;
 }
 
-struct Effort {
-    int iterations = 0, factorizations = 0;
-};
-
 /// Newton's method on the first-order conditions themselves, for as long as it brings them nearer
 /// by much: no line search, and the sign of the curvature does not matter. A curve of fixed length
 /// under compression whose edges are short would rather fold up like a concertina; these steps keep
 /// to the smooth curve.
 State solve_conditions(const Problem& problem, OptimalitySystem& system, const ActiveSet& active,
-                       State state, Effort& effort, const Progress& progress) {
+                       State state, int& iterations, const Progress& progress) {
     const auto step = [&] {
         auto next = stepped_to_conditions(problem, system, active, state);
         if (!next) return false;
         state = std::move(*next);
-        ++effort.iterations;
+        ++iterations;
         return true;
     };
     const auto reuse_factor = [&] {  // its matrix has hardly changed (the chord method)
@@ -218,7 +214,6 @@ State solve_conditions(const Problem& problem, OptimalitySystem& system, const A
     reuse_factor();
     while (!is_optimal(active, state.is)) {
         progress.check();
-        ++effort.factorizations;
         if (!system.factor_exact(problem, state.iterate, active.held, progress) || !step()) break;
         reuse_factor();
     }
@@ -262,7 +257,7 @@ enum class End { converged, contradictory, given_up };
 
 /// Steps until the end, where it leaves the state.
 End run(const Problem& problem, const Approach& approach, OptimalitySystem& system, State& state,
-        Effort& effort, const Progress& progress) {
+        int& iterations, const Progress& progress) {
     const std::vector<Row>& rows = problem.rows;
     const double area = problem.distortion.total_area();
     ActiveSet active(rows);
@@ -270,24 +265,24 @@ End run(const Problem& problem, const Approach& approach, OptimalitySystem& syst
     Momentum momentum{state.is.energy < near_isometry * area};
     ErrorWatch watch;
     int idle_steps = 0;
-    while (effort.iterations < max_iterations) {
+    while (iterations < max_iterations) {
         if (state.is.energy < approach.enough * area) return End::converged;
         if (active.update(rows, state.is.values, state.iterate.multipliers))
             state = evaluated(problem, active, std::move(state.iterate));
         if (is_optimal(active, state.is)) return End::converged;
         progress.check();
-        ++effort.iterations;
-        ++effort.factorizations;
+        ++iterations;
         Step step = take_step(problem, system, active, state, momentum, progress);
         idle_steps = is_idle(active, step) ? idle_steps + 1 : 0;
-        const bool contradicts = watch.finds_contradiction(problem, step, effort.iterations);
+        const bool contradicts = watch.finds_contradiction(problem, step, iterations);
         state = std::move(step.state);
         if (idle_steps > most_idle_steps) return End::converged;
         if (approach.decrease > 0.0 && step.promised < approach.decrease * state.is.energy)
             return End::converged;
         if (contradicts) return End::contradictory;
         if (step.length == 1.0 && state.is.distance_to_optimum() <= tolerance::nearly_optimal)
-            state = solve_conditions(problem, system, active, std::move(state), effort, progress);
+            state =
+                solve_conditions(problem, system, active, std::move(state), iterations, progress);
         if (step.length > 0.0) continue;
         // No part of the step could be taken: rows that it would have broken may be what it lacks.
         if (active.hold_violated(rows, values_of(rows, state.iterate.x + step.direction))) continue;
@@ -303,13 +298,12 @@ Minimum minimise(const Problem& problem, const Iterate& start, const Approach& a
                  OptimalitySystem& system, const Progress& progress) {
     const auto count = static_cast<Eigen::Index>(problem.rows.size());
     State state{start, {}};
-    Effort effort;
-    const End end = run(problem, approach, system, state, effort, progress);
+    int iterations = 0;
+    const End end = run(problem, approach, system, state, iterations, progress);
     Minimum minimum;
     minimum.charts = problem.domain.charts(state.iterate.x);
     minimum.multipliers = std::move(state.iterate.multipliers);
-    minimum.iterations = effort.iterations;
-    minimum.factorizations = effort.factorizations;
+    minimum.iterations = iterations;
     minimum.energy = state.is.energy / problem.distortion.total_area();
     minimum.projected_gradient = state.is.projected_gradient;
     minimum.worst_error = state.is.worst_error;

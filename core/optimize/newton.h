@@ -16,10 +16,9 @@ struct Approach {
 };
 
 struct Minimum {
-    std::vector<Chart> charts;    ///< one per region
-    Eigen::VectorXd multipliers;  ///< per row, mm
-    int iterations = 0;           ///< Newton steps
-    int factorizations = 0;
+    std::vector<Chart> charts;        ///< one per region
+    Eigen::VectorXd multipliers;      ///< per row, mm
+    int iterations = 0;               ///< Newton steps
     double energy = 0.0;              ///< mean density over the surface
     double projected_gradient = 0.0;  ///< of the mean density, per mm of a point's way, times the
                                       ///< square root of the area: no unit

@@ -38,7 +38,7 @@ public:
     BodySource& operator=(const BodySource&) = delete;
 
     /// The whole body without its chunk framing: straight from the socket if its length is known.
-    /// Once. Throws: Refusal.
+    /// Once. Throws: api::Refusal.
     [[nodiscard]] Buffer read();
 
     /// Whether the body was read to its end.

@@ -17,7 +17,7 @@ class HttpLibrary {
 public:
     /// Called on the thread of `accept_until_stopped` with each connection.
     using Accept = std::function<void(Socket)>;
-    /// Reads the whole body. Throws: Refusal.
+    /// Reads the whole body. Throws: api::Refusal.
     using ReadBody = std::function<Buffer()>;
     /// Makes the answer; `read_body` is empty if there is no body. Must not throw.
     using Answer = std::function<Response(const ReadBody& read_body)>;

@@ -15,7 +15,7 @@ namespace lastflat::http {
 /// In:     the Content-Type value, for its boundary; the whole body.
 /// Out:    the parts in their order, their bytes inside `body`; names may repeat. `filename*` is
 ///         ignored, as RFC 7578 asks.
-/// Throws: Refusal, also for a body that lacks its last boundary: it was cut off.
+/// Throws: api::Refusal, also for a body that lacks its last boundary: it was cut off.
 [[nodiscard]] std::vector<BodyPart> parse_multipart(std::string_view content_type,
                                                     std::string_view body, std::size_t most_parts);
 

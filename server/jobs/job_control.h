@@ -25,9 +25,9 @@ public:
         : jobs_(jobs), blobs_(blobs), watch_(watch), executor_(executor) {}
 
     /// The job after that: canceled, or canceling until its run has ended.
-    /// Throws: Refusal (404, 409, 410).
+    /// Throws: api::Refusal (404, 409, 410).
     [[nodiscard]] JobRecord cancel(const std::string& owner, const std::string& id);
-    /// Forgets the job in whatever state it is. Throws: Refusal (404, 410).
+    /// Forgets the job in whatever state it is. Throws: api::Refusal (404, 410).
     void remove(const std::string& owner, const std::string& id);
     /// Ends lost leases and overdue jobs, and forgets what is past its time.
     void sweep();

@@ -48,10 +48,10 @@ struct IntakeLimits {
     bool webhooks = false;          ///< whether a job may have one
 };
 
-/// Throws: Refusal (507) if the disk has less room than the operator wants to keep; StoreError.
+/// Throws: api::Refusal (507) if the disk has less room than the operator wants to keep; StoreError.
 void check_room(const BlobStore& blobs, std::size_t min_free_mb);
 
-/// Throws: Refusal (403) unless the service sends webhooks.
+/// Throws: api::Refusal (403) unless the service sends webhooks.
 void require_webhooks(bool webhooks);
 
 /// Takes jobs. Safe from any thread.
@@ -68,7 +68,7 @@ public:
           draining_(draining) {}
 
     /// Keeps a job; on the disk when this returns.
-    /// Throws: Refusal (403, 409, 422, 429, 503, 507), StoreError.
+    /// Throws: api::Refusal (403, 409, 422, 429, 503, 507), StoreError.
     [[nodiscard]] Submitted submit(const Submission& submission);
 
 private:

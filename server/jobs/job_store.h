@@ -36,7 +36,7 @@ struct Admitted {
 
 struct QueueLimits {
     std::size_t queued = 256;           ///< jobs waiting
-    std::size_t queued_of_owner = 256;  ///< of one key
+    std::size_t queued_of_owner = 64;  ///< of one key
 };
 
 enum class Release {

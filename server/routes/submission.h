@@ -14,14 +14,14 @@ namespace lastflat::server {
 /// application/json with the model in base64 or an asset's id; or the model's bytes alone, its
 /// constraints in the header `X-Flatten-Constraints` (base64url) or absent. Lasts as long as the
 /// request's body.
-/// Throws: Refusal, api::InvalidRequest.
+/// Throws: api::Refusal, api::InvalidRequest.
 [[nodiscard]] Submission read_submission(const http::Request& request);
 
 /// Throws as above.
 [[nodiscard]] Submission submission_of(api::JsonSubmission json);
 
 /// Who sends it, and what the headers Idempotency-Key and Cancel-After say of it.
-/// Throws: Refusal (400).
+/// Throws: api::Refusal (400).
 void read_terms(const http::Request& request, Submission& submission);
 
 }  // namespace lastflat::server

@@ -13,7 +13,7 @@ public:
     TaskAnswers(SeatsByKey& seats, RunTask run) : seats_(seats), run_(std::move(run)) {}
 
     /// The task's report, or its problem. Takes a seat to wait in.
-    /// Throws: Refusal (422, 500, 503).
+    /// Throws: api::Refusal (422, 500, 503).
     [[nodiscard]] http::Response answer(const http::Request& request, Task task,
                                         std::string_view model, std::string_view text) const;
 

@@ -65,7 +65,7 @@ std::string read_model(const WorkOrder& order) try {
                                   "; post the job again");
 }
 
-WorkMessage flatten(const WorkOrder& order, const JobInput& input) {
+WorkMessage run_flatten(const WorkOrder& order, const JobInput& input) {
     Progress progress([](Stage stage, double fraction) {
         say(StageReached{std::string(name(stage)), fraction});
     });
@@ -87,7 +87,7 @@ WorkMessage work(const WorkOrder& order) {
     input.options.request = api::flatten_request_from_json(order.request).asked;
     input.options.threads = static_cast<std::size_t>(order.threads);
     input.model = read_model(order);
-    if (order.task == Task::flatten) return flatten(order, input);
+    if (order.task == Task::flatten) return run_flatten(order, input);
     return Report{api::to_json(inspect(input.model, input.options))};
 }
 
