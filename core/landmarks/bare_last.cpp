@@ -42,15 +42,19 @@ std::vector<Vec3> flat_sides(const std::vector<BareFace>& faces, const Vec3& axi
 /// Upright with the given side down; the cone, highest of all, stands over the heel.
 LastFrame standing(const std::vector<BareFace>& faces, const Vec3& mean, const Vec3& axis,
                    const Vec3& down) {
-    std::vector<double> heights;
-    heights.reserve(faces.size());
-    for (const BareFace& face : faces) heights.push_back(-down.dot(face.centre - mean));
-    std::vector<double> sorted = heights;
-    const auto high = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 9 / 10);
-    std::nth_element(sorted.begin(), high, sorted.end());
-    double cone = 0.0;
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-        if (heights[f] >= *high) cone += faces[f].area * axis.dot(faces[f].centre - mean);
+    std::vector<const BareFace*> by_height;
+    double all = 0.0;
+    for (const BareFace& face : faces) {
+        by_height.push_back(&face);
+        all += face.area;
+    }
+    std::sort(by_height.begin(), by_height.end(), [&](const BareFace* a, const BareFace* b) {
+        return down.dot(a->centre) < down.dot(b->centre);
+    });
+    double cone = 0.0, highest = 0.0;
+    for (std::size_t f = 0; f < by_height.size() && highest < 0.1 * all; ++f) {
+        highest += by_height[f]->area;
+        cone += by_height[f]->area * axis.dot(by_height[f]->centre - mean);
     }
     return {cone > 0.0 ? Vec3(-axis) : axis, -down};
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "core/landmarks/check_outcome.h"
 #include "core/landmarks/edge_line.h"
 #include "core/landmarks/sole_and_top.h"
 #include "core/locate/surface_search.h"
@@ -264,6 +265,7 @@ Landmarks found_with(const SurfaceMesh& surface, const std::vector<BareFace>& fa
     found.up = (frame.up - frame.up.dot(found.forward) * found.forward).normalized();
     check_shares(faces, parts);
     find_centre_line(surface, upper, positions_of(surface, topline), found);
+    check_outcome(faces, parts, line, positions_of(surface, topline), found);
     find_sides(surface, upper, line, found);
     found.cut.cuts = {curve_name::featherline, curve_name::topline, curve_name::centre_front,
                       curve_name::heel};
