@@ -146,6 +146,8 @@ void read_surface(ObjectReader& reader, const RequestLimits& limits, WeldOptions
         weld.unit_mm =
             units->value.is_number() ? units->number(1e-6, 1e6) : units->choice(unit_words);
     }
+    if (const auto length = reader.find("last_length_mm"))
+        weld.last_length_mm = length->number(50.0, 500.0);
     if (const auto surface = reader.find("surface")) {
         ObjectReader inner(*surface);
         if (const auto groups = inner.find("groups")) weld.groups = read_names(*groups, limits);
@@ -153,11 +155,15 @@ void read_surface(ObjectReader& reader, const RequestLimits& limits, WeldOptions
     }
     if (const auto field = reader.find("weld")) {
         ObjectReader inner(*field);
+        if (const auto coincident = inner.find("coincident"))
+            weld.coincident = coincident->choice(coincident_words);
         if (const auto tolerance = inner.find("tolerance_mm"))
             weld.tolerance_mm = tolerance->number(0.0, 1.0);
         if (const auto stitch = inner.find("stitch_mm")) weld.stitch_mm = stitch->number(0.0, 2.0);
-        if (!weld.tolerance_mm && !weld.stitch_mm)
-            field->fail("must have \"tolerance_mm\" or \"stitch_mm\"");
+        if (!weld.coincident && !weld.tolerance_mm && !weld.stitch_mm)
+            field->fail("must have \"coincident\", \"tolerance_mm\" or \"stitch_mm\"");
+        if (weld.coincident == Coincident::keep && weld.tolerance_mm)
+            field->fail("cannot join vertices within \"tolerance_mm\" and keep coincident ones");
         inner.finish();
     }
 }

@@ -99,15 +99,29 @@ public:
     /// The id in the file; nothing: a curve made it.
     [[nodiscard]] std::optional<Index> file_vertex(Index vertex) const {
         const Index source = region_.source_vertices[at(vertex)];
-        return at(source) < result_.file_vertices ? std::optional(source) : std::nullopt;
+        return at(source) < uncurved() ? std::optional(of_file(source)) : std::nullopt;
     }
     /// Of a vertex that a curve made: the vertices of the file between which it lies.
-    [[nodiscard]] const SurfacePoint& made_at(Index vertex) const {
-        return result_
-            .added_vertices[at(region_.source_vertices[at(vertex)]) - result_.file_vertices];
+    [[nodiscard]] SurfacePoint made_at(Index vertex) const {
+        SurfacePoint made =
+            result_.added_vertices[at(region_.source_vertices[at(vertex)]) - uncurved()];
+        for (Index& corner : made.corners) {
+            if (corner >= 0) corner = of_file(corner);
+        }
+        return made;
     }
 
 private:
+    /// How many vertices there were before any curve.
+    [[nodiscard]] std::size_t uncurved() const {
+        return result_.file_vertices + result_.vertex_copies.size();
+    }
+    [[nodiscard]] Index of_file(Index id) const {
+        return at(id) < result_.file_vertices
+                   ? id
+                   : result_.vertex_copies[at(id) - result_.file_vertices];
+    }
+
     const FlattenResult& result_;
     const Region& region_;
 };
@@ -193,7 +207,7 @@ void append_sources(std::string& text, const Region& region, const Sources& sour
         const auto file_vertex = sources.file_vertex(v);
         text += (file_vertex ? std::to_string(*file_vertex) : "null") + ",";
         if (file_vertex) continue;
-        const SurfacePoint& made = sources.made_at(v);
+        const SurfacePoint made = sources.made_at(v);
         points += "{\"vertex\":" + std::to_string(v) + ",\"triangle\":";
         append(points, made.corners);
         points += ",\"weights\":";

@@ -7,10 +7,12 @@
 namespace lastflat::api {
 
 Json json_of(const lastflat::Repair& repair) {
-    return {{"code", repair.code},
-            {"count", repair.count},
-            {"detail", repair.detail},
-            {"positions", json_of(repair.positions)}};
+    Json json{{"code", repair.code},
+              {"count", repair.count},
+              {"detail", repair.detail},
+              {"positions", json_of(repair.positions)}};
+    if (!repair.lengths_mm.empty()) json["lengths_mm"] = repair.lengths_mm;
+    return json;
 }
 
 Json json_of(const lastflat::Warning& warning) {

@@ -37,6 +37,7 @@ inline constexpr CataloguedProblem problem_catalogue[] = {
     {"region_not_disk", 422},
     {"method_failed", 422},
     {"constraints_infeasible", 422},
+    {"distortion_extreme", 422},
     {"border_crosses", 422},
     {"solver_failed", 500},
     // Of jobs and results

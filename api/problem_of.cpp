@@ -21,6 +21,7 @@ ProblemCode code_of(ErrorCode code) {
         case ErrorCode::region_not_disk: return "region_not_disk";
         case ErrorCode::method_failed: return "method_failed";
         case ErrorCode::constraints_infeasible: return "constraints_infeasible";
+        case ErrorCode::distortion_extreme: return "distortion_extreme";
         case ErrorCode::border_crosses: return "border_crosses";
         case ErrorCode::solver_failed: return "solver_failed";
         case ErrorCode::unsupported_request: return "unsupported_request";

@@ -159,7 +159,9 @@ void write_surface(const WeldOptions& weld, Json& json) {
                                           [&](const auto& w) { return w.value == *weld.unit_mm; });
         json["units"] = has_word ? Json(word_of(unit_words, *weld.unit_mm)) : Json(*weld.unit_mm);
     }
+    if (weld.last_length_mm) json["last_length_mm"] = *weld.last_length_mm;
     if (!weld.groups.empty()) json["surface"] = {{"groups", weld.groups}};
+    if (weld.coincident) json["weld"]["coincident"] = word_of(coincident_words, *weld.coincident);
     if (weld.tolerance_mm) json["weld"]["tolerance_mm"] = *weld.tolerance_mm;
     if (weld.stitch_mm) json["weld"]["stitch_mm"] = *weld.stitch_mm;
 }

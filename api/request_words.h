@@ -29,6 +29,9 @@ inline constexpr Word<BorderShape> border_words[]{{"square", BorderShape::square
 inline constexpr Word<AngleRule> angle_words[]{
     {"curvature", AngleRule::curvature}, {"averaged_conformal", AngleRule::averaged_conformal}};
 
+inline constexpr Word<Coincident> coincident_words[]{{"join", Coincident::join},
+                                                     {"keep", Coincident::keep}};
+
 inline constexpr Word<HoleRule> hole_words[]{
     {"auto", HoleRule::automatic}, {"keep", HoleRule::keep}, {"open", HoleRule::open}};
 

@@ -24,6 +24,7 @@ enum class ErrorCode {
     region_not_disk,         ///< a region is not a disk
     method_failed,           ///< the method has no answer on this region (folded, singular)
     constraints_infeasible,  ///< the constraints cannot all hold
+    distortion_extreme,      ///< what was found would be no pattern of a last
     border_crosses,          ///< the flat border crosses itself
     solver_failed,           ///< a linear system could not be solved
     unsupported_request,     ///< an option is out of its range

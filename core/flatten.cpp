@@ -142,6 +142,9 @@ FlatRegion certified(Region region, Chart chart, const Minimum& minimum,
                     measure_stretch(region, chart.uv, request.material),
                     minimum.iterations};
     check_result(region, chart.uv, request.method.name, flat.metrics, result.warnings);
+    if (request.method.name == MethodName::isometric)
+        check_distortion(region, flat.metrics, flat.stretch, result.plan.landmarks.has_value(),
+                         result.warnings);
     if (is_energy(request.method.name)) {
         flat.energy = minimum.energy;
         flat.projected_gradient = minimum.projected_gradient;
@@ -161,6 +164,7 @@ FlattenResult measured(Prepared prepared, Solution solution, double layout_gap_m
     result.added_vertices = std::move(prepared.added_vertices);
     result.smallest_added_angle = prepared.smallest_added_angle;
     result.file_vertices = prepared.file_vertices;
+    result.vertex_copies = std::move(prepared.vertex_copies);
     result.repairs = std::move(prepared.repairs);
     std::vector<Region>& regions = prepared.regions;
     std::vector<Chart> charts(regions.size());

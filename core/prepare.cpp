@@ -5,6 +5,7 @@
 #include "core/constrain/check_constraints.h"
 #include "core/constrain/constraint_rows.h"
 #include "core/load/load_model.h"
+#include "core/plan/close_openings.h"
 #include "core/stopwatch.h"
 #include "core/weld/weld.h"
 
@@ -45,7 +46,8 @@ ReadModel read_model(std::string_view model, const FlattenOptions& options, Prog
     const RawMesh raw = load_model(model, options.limits);
     ReadModel read{raw.positions.size(), raw.triangles.size(), count_groups(raw), {}, watch.lap()};
     progress.reach(Stage::weld, 0.1);
-    read.surface = weld(raw, options.request.weld);
+    read.surface = weld(raw, options.request.weld, options.request.cut.holes);
+    close_openings(read.surface, options.request);
     return read;
 }
 
@@ -62,7 +64,8 @@ Prepared prepare(SurfaceMesh surface, Plan plan, Progress& progress) {
     append(prepared.warnings, cut.warnings);
     prepared.plan = std::move(plan);
     prepared.regions = std::move(cut.regions);
-    prepared.file_vertices = surface.welded_to.size();
+    prepared.file_vertices = surface.welded_to.size() - surface.copies.size();
+    prepared.vertex_copies = std::move(surface.copies);
     prepared.added_vertices = std::move(cut.inserted.added);
     prepared.smallest_added_angle = cut.inserted.smallest_angle;
     prepared.repairs = std::move(surface.repairs);

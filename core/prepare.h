@@ -25,7 +25,8 @@ struct Prepared {
     std::vector<Region> regions;
     std::vector<Constraint> constraints;  ///< the plan's, and one for every seam
     std::size_t file_vertices = 0;
-    /// Vertices that curves made, in the order of their ids, which follow those of the file.
+    std::vector<Index> vertex_copies;  ///< as in `SurfaceMesh`; their ids follow those of the file
+    /// Vertices that curves made, in the order of their ids, which follow those of the copies.
     std::vector<SurfacePoint> added_vertices;
     double smallest_added_angle = 0.0;  ///< of the triangles that curves made; radians
     std::vector<Warning> warnings;

@@ -35,12 +35,20 @@ struct LoadLimits {
     std::size_t json_depth = 64;         ///< nesting inside glTF
 };
 
+enum class Coincident { join, keep };
+
 struct WeldOptions {
     std::optional<double> unit_mm;    ///< one unit of the model in mm; default: the format's
+    /// How long the last is, along the longest side of its box. Says the unit where nobody does, and
+    /// must agree with one that is given.
+    std::optional<double> last_length_mm{};
     std::vector<std::string> groups;  ///< faces that carry one of these names; empty: all faces
-    /// Vertices at most this far apart become one. Default: those of the same position, within
-    /// `tolerance::same_position` of the model's size, and only in models without indices, so that
+    /// Vertices in one and the same position become one, or not. Default: where the format has to
+    /// repeat a vertex (STL; glTF and PLY at a seam of texture); an index of OBJ is meant, so that
     /// a slit stays a slit.
+    std::optional<Coincident> coincident{};
+    /// Vertices at most this far apart become one. Default: those of the same position; in models
+    /// without indices within `tolerance::same_position` of the model's size.
     std::optional<double> tolerance_mm;
     /// Borders at most this far apart are stitched together; 0: none. Default:
     /// `tolerance::near_border` of the model's size, and only if this closes a model that comes in

@@ -34,7 +34,8 @@ struct FlattenResult {
     std::vector<ConstraintReport> constraints;  ///< of what was asked
     Sheet sheet;
     std::vector<Warning> warnings;
-    /// Vertices that curves made, in the order of their ids, which follow those of the file.
+    std::vector<Index> vertex_copies;  ///< as in `SurfaceMesh`; their ids follow those of the file
+    /// Vertices that curves made, in the order of their ids, which follow those of the copies.
     std::vector<SurfacePoint> added_vertices;
     double smallest_added_angle = 0.0;  ///< of the triangles that curves made; radians
     std::size_t file_vertices = 0;

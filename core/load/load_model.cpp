@@ -35,16 +35,21 @@ std::string_view unread_format(std::string_view bytes) {
 }  // namespace
 
 RawMesh load_model(std::string_view bytes, const LoadLimits& limits) {
+    const auto with_seams = [](RawMesh mesh) {
+        mesh.repeats_at_seams = true;
+        return mesh;
+    };
     if (bytes.empty()) throw Error(ErrorCode::unreadable_model, "the model is empty (0 bytes)");
-    if (starts_with(bytes, "glTF")) return read_glb(bytes, limits);
+    if (starts_with(bytes, "glTF")) return with_seams(read_glb(bytes, limits));
     if (const auto format = unread_format(bytes); !format.empty()) {
         throw Error(ErrorCode::unsupported_model,
                     "the model is " + std::string(format) +
                         ", which this version does not read; send OBJ, STL, PLY, glTF or GLB");
     }
     const std::string_view text = without_byte_order_mark(bytes);
-    if (first_visible(text) == '{') return read_gltf(text, limits);
-    if (starts_with(text, "ply\n") || starts_with(text, "ply\r")) return read_ply(text, limits);
+    if (first_visible(text) == '{') return with_seams(read_gltf(text, limits));
+    if (starts_with(text, "ply\n") || starts_with(text, "ply\r"))
+        return with_seams(read_ply(text, limits));
     if (is_stl(text)) return read_stl(text, limits);
     return read_obj(text, limits);
 }

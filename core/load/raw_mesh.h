@@ -27,7 +27,9 @@ struct RawMesh {
     };
     std::vector<Line> lines;
 
-    bool indexed = true;           ///< false: triangles do not share vertices (unindexed glTF)
+    bool indexed = true;  ///< false: triangles do not share vertices (STL, unindexed glTF)
+    /// Along a seam of texture or material a vertex stands more than once (glTF, PLY).
+    bool repeats_at_seams = false;
     double default_unit_mm = 1.0;  ///< the model's unit when the request does not say: glTF 1000
 };
 

@@ -1,6 +1,10 @@
 #include "core/measure/check_result.h"
 
+#include <algorithm>
+#include <numbers>
+
 #include "core/constrain/constraint.h"
+#include "core/text.h"
 
 namespace lastflat {
 namespace {
@@ -30,6 +34,18 @@ void check_crossings(const Region& region, const Points2& uv, MethodName method,
     warnings.push_back({"border_crosses", what, a});
 }
 
+/// A border encloses no more in the plane than a circle of its length does.
+std::string likely_cause(const Region& region, double area) {
+    const double around = loop_length(region, region.border);
+    if (around * around < 4.0 * std::numbers::pi * area)
+        return "its border of " + fixed_text(around, 0) + " mm is too short for its surface of " +
+               fixed_text(area / 100.0, 0) +
+               " cm2: a cut is missing, or it was opened at a hole instead of its rim";
+    if (!region.holes.empty())
+        return "a hole of it was kept; open it with \"holes\": \"open\", or close the model there";
+    return "it bends more than a flat piece can follow; cut or sew it there";
+}
+
 }  // namespace
 
 void check_result(const Region& region, const Points2& uv, MethodName method,
@@ -46,6 +62,23 @@ void check_result(const Region& region, const Points2& uv, MethodName method,
             .at_triangles(source_triangles(region, flipped));
     }
     if (metrics.border_crossings > 0) check_crossings(region, uv, method, warnings);
+}
+
+void check_distortion(const Region& region, const Metrics& metrics, const StretchReport& stretch,
+                      bool was_found, std::vector<Warning>& warnings) {
+    constexpr double most_energy = 1.02, most_strain_percent = 25.0;
+    const double strain = std::max(
+        {stretch.larger.p99, -stretch.larger.p01, stretch.smaller.p99, -stretch.smaller.p01});
+    if (metrics.symmetric_dirichlet <= most_energy && strain <= most_strain_percent) return;
+    const Vec3 position =
+        stretch.worst.empty() ? region.position(region.border[0]) : stretch.worst[0].position;
+    const std::string what = "region '" + region.name + "': mean energy " +
+                             fixed_text(metrics.symmetric_dirichlet, 3) +
+                             ", a hundredth of the surface strains by " + fixed_text(strain, 0) +
+                             " % or more, most by " + position_text(position) + "; " +
+                             likely_cause(region, metrics.area_3d_mm2);
+    if (was_found) throw Error(ErrorCode::distortion_extreme, what).at_position(position);
+    warnings.push_back({"distortion_extreme", what, position});
 }
 
 void check_constraints_kept(const std::vector<ConstraintReport>& reports,

@@ -13,6 +13,13 @@ namespace lastflat {
 void check_result(const Region& region, const Points2& uv, MethodName method,
                   const Metrics& metrics, std::vector<Warning>& warnings);
 
+/// A pattern that no leather follows: the mean energy is above 1.02, or a hundredth of the surface
+/// strains by more than 25 %. Such a result of `isometric` gets the warning `distortion_extreme`
+/// with its likely cause and the worst position.
+/// Throws: Error{distortion_extreme} instead, if nobody said how the last is cut (`was_found`).
+void check_distortion(const Region& region, const Metrics& metrics, const StretchReport& stretch,
+                      bool was_found, std::vector<Warning>& warnings);
+
 /// Throws: Error{constraints_infeasible} if a constraint is not kept; one that was relaxed becomes
 ///         the warning `constraint_relaxed`.
 void check_constraints_kept(const std::vector<ConstraintReport>& reports,

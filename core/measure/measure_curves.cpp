@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "core/cut/seam_stretches.h"
 #include "core/measure/report.h"
@@ -57,6 +59,32 @@ const Lock* lock_on(const std::string& curve, const std::string& region,
     return nullptr;
 }
 
+/// The whole of a curve in two regions, if it is longer on the last in one of them: a stretch of it
+/// has no other side to be sewn to.
+std::optional<PairReport> unequal_runs(const std::vector<Region>& regions,
+                                       const std::vector<Chart>& charts, const std::string& curve) {
+    std::map<std::size_t, Lengths> totals;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        for (const CurveRun& run : regions[r].runs) {
+            if (run.curve != curve) continue;
+            const Lengths lengths = lengths_of(regions[r], charts[r].uv, run.vertices);
+            totals[r].in_space += lengths.in_space;
+            totals[r].flat += lengths.flat;
+        }
+    }
+    if (totals.size() != 2) return std::nullopt;
+    const auto& [a, in_a] = *totals.begin();
+    const auto& [b, in_b] = *totals.rbegin();
+    if (std::abs(in_a.in_space - in_b.in_space) <= tolerance::pair_difference_mm)
+        return std::nullopt;
+    return PairReport{curve,
+                      regions[a].name,
+                      regions[b].name,
+                      std::max(in_a.in_space, in_b.in_space),
+                      in_a.flat - in_b.flat,
+                      Verdict::fail};
+}
+
 }  // namespace
 
 std::vector<CurveReport> measure_curves(const Region& region, const Points2& uv,
@@ -85,7 +113,8 @@ std::vector<PairReport> measure_pairs(const std::vector<Region>& regions,
     }
     std::vector<PairReport> pairs;
     for (const std::string& curve : curves) {
-        for (const SeamStretch& both : seam_stretches(all, curve)) {
+        const auto stretches = seam_stretches(all, curve);
+        for (const SeamStretch& both : stretches) {
             const auto lengths = [&](const SeamStretch::Side& side) {
                 return lengths_of(regions[side.region], charts[side.region].uv, side.vertices);
             };
@@ -97,6 +126,8 @@ std::vector<PairReport> measure_pairs(const std::vector<Region>& regions,
                                  ? Verdict::pass
                                  : Verdict::fail});
         }
+        if (stretches.empty()) continue;
+        if (auto whole = unequal_runs(regions, charts, curve)) pairs.push_back(std::move(*whole));
     }
     return pairs;
 }

@@ -91,7 +91,8 @@ struct StretchReport {
 [[nodiscard]] StretchReport measure_stretch(const Region& region, const Points2& uv,
                                             const std::optional<MaterialLimits>& material);
 
-/// Every two runs along the same vertices of the last.
+/// Every two runs along the same vertices of the last; and, as one that fails, every curve that two
+/// regions share, but one has more of.
 [[nodiscard]] std::vector<PairReport> measure_pairs(const std::vector<Region>& regions,
                                                     const std::vector<Chart>& charts);
 

@@ -25,6 +25,10 @@ inline constexpr double alike_length = 0.05, alike_turns = 0.01;
 /// A loose piece of less than this share of the largest one's area is a stray.
 inline constexpr double stray_area = 0.01;
 
+/// A hole no further across than this and than this share of the surface's size, in a surface that
+/// is closed but for such, is a fault of the file or the scan, or a jack pin.
+inline constexpr double small_hole_mm = 20.0, small_hole = 0.2;
+
 /// Coordinates beyond this many mm are no last, and their squares soon are no numbers.
 inline constexpr double largest_coordinate_mm = 1e6;
 

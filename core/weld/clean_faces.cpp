@@ -1,5 +1,6 @@
 #include "core/weld/clean_faces.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +9,7 @@
 #include "core/numerics/disjoint_sets.h"
 #include "core/numerics/geometry.h"
 #include "core/numerics/tolerances.h"
+#include "core/weld/merge_vertices.h"
 #include "core/weld/sides.h"
 
 namespace lastflat {
@@ -135,12 +137,33 @@ std::vector<std::vector<Neighbour>> neighbours_of(const std::vector<Triangle>& t
     return neighbours;
 }
 
+/// Pieces whose borders come as near to each other as those that are stitched are one.
+void join_touching(const Faces& faces, DisjointSets& pieces) {
+    std::vector<Index> border;
+    Points3 positions;
+    for_each_edge(sides_by_edge(faces.triangles), [&](auto first, auto last) {
+        if (last - first != 1) return;
+        border.push_back(first->from());
+        positions.push_back(faces.position(first->from()));
+    });
+    const auto same = merge_vertices(positions, tolerance::near_border * size_of(faces));
+    for (std::size_t i = 0; i < same.size(); ++i) pieces.join(border[i], border[at(same[i])]);
+}
+
 }  // namespace
 
 void Faces::rename() {
     for (Triangle& t : triangles) {
         for (Index& vertex : t) vertex = welded_to[static_cast<std::size_t>(vertex)];
     }
+}
+
+double size_of(const Faces& faces) {
+    Eigen::AlignedBox3d box;
+    for (const Triangle& t : faces.triangles) {
+        for (const Index v : t) box.extend(faces.position(v));
+    }
+    return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
 void clean_faces(Faces& faces, std::vector<Repair>& repairs) {
@@ -201,6 +224,7 @@ void drop_strays(Faces& faces, std::vector<Repair>& repairs) {
         pieces.join(t[0], t[1]);
         pieces.join(t[0], t[2]);
     }
+    join_touching(faces, pieces);
     std::map<Index, double> areas;
     for (const Triangle& t : faces.triangles)
         areas[pieces.find(t[0])] += doubled_area_vector(faces, t).norm();

@@ -5,12 +5,14 @@
 
 namespace lastflat {
 
-/// Triangles while they are mended. `welded_to[v]` stands for vertex v.
+/// Triangles while they are mended. `welded_to[v]` stands for vertex v. The last vertices are
+/// copies of others.
 struct Faces {
     Points3 positions;
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> labels;  ///< per triangle
     std::vector<Index> welded_to;
+    std::vector<Index> copies{};  ///< per copy, whose
 
     [[nodiscard]] const Vec3& position(Index vertex) const {
         return positions[static_cast<std::size_t>(vertex)];
@@ -31,6 +33,9 @@ struct Faces {
     }
 };
 
+/// The diagonal of the triangles' box.
+[[nodiscard]] double size_of(const Faces& faces);
+
 /// Drops triangles that name a vertex twice and repetitions of a triangle; flat ones are taken out
 /// so that no hole stays: where an edge is nearly zero its ends become one vertex, else the vertex
 /// that lies on the longest side is put into that side.
@@ -40,8 +45,8 @@ void clean_faces(Faces& faces, std::vector<Repair>& repairs);
 /// A surface that has no two sides stays as it is.
 void wind_alike(Faces& faces, std::vector<Repair>& repairs);
 
-/// Drops pieces that share no vertex with the rest and have less than
-/// `tolerance::stray_area` of the largest piece's area.
+/// Drops pieces that neither share a vertex with the rest nor come near to its border with their own
+/// (`tolerance::near_border`) and have less than `tolerance::stray_area` of the largest one's area.
 void drop_strays(Faces& faces, std::vector<Repair>& repairs);
 
 }  // namespace lastflat

@@ -190,10 +190,11 @@ double join_borders(Faces& faces, double tolerance_mm, RepairNote& joined, Repai
     Faces trial = faces;
     RepairNote trial_joined = joined, trial_inserted = inserted;
     double furthest = 0.0;
-    for (int round = 0; round < most_rounds; ++round) {
-        if (!join_once(trial, tolerance_mm, furthest, trial_joined, trial_inserted)) break;
-    }
-    if (furthest == 0.0 || !every_edge_has_two_sides_at_most(trial)) return 0.0;
+    int rounds = 0;
+    while (rounds < most_rounds &&
+           join_once(trial, tolerance_mm, furthest, trial_joined, trial_inserted))
+        ++rounds;
+    if (rounds == 0 || !every_edge_has_two_sides_at_most(trial)) return 0.0;
     faces = std::move(trial);
     joined = trial_joined;
     inserted = trial_inserted;

@@ -10,9 +10,10 @@ namespace lastflat {
 
 struct Repair {
     std::string code;
-    std::string detail;   ///< what was done, for people
-    std::size_t count;    ///< how often
-    Points3 positions{};  ///< where, mm; the first `most_listed`
+    std::string detail;                ///< what was done, for people
+    std::size_t count;                 ///< how often
+    Points3 positions{};               ///< where, mm; the first `most_listed`
+    std::vector<double> lengths_mm{};  ///< at each position, where what was mended has a length
 
     static constexpr std::size_t most_listed = 10;
 };

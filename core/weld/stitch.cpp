@@ -299,8 +299,11 @@ Insertions vertices_on_edges(const Faces& faces, double tolerance) {
 }  // namespace
 
 void close_t_junctions(Faces& faces, double tolerance_mm, std::vector<Repair>& repairs) {
-    const Insertions insertions = vertices_on_edges(faces, tolerance_mm);
-    RepairNote note;
+    Insertions insertions = vertices_on_edges(faces, tolerance_mm);
+    if (insertions.empty()) return;
+    RepairNote same, note;  // the ends of an edge that was met are met, too
+    join_same_positions(faces, tolerance_mm, same);
+    insertions = vertices_on_edges(faces, tolerance_mm);
     for (const auto& [edge, vertices] : insertions) {
         for (const Index v : vertices) note.at(faces.position(v));
     }

@@ -25,11 +25,12 @@ struct ModelLine {
     Points3 points;  ///< mm
 };
 
-/// Vertex handles are the ids of the file; a vertex that was welded away, or that no selected face
-/// uses, is isolated.
+/// Vertex handles are the ids of the file, and copies of vertices where the surface touched itself;
+/// a vertex that was welded away, or that no selected face uses, is isolated.
 struct SurfaceMesh {
     TriMesh mesh;
-    std::vector<Index> welded_to;  ///< per id of the file, the id that stands for it
+    std::vector<Index> welded_to;  ///< per id, the id that stands for it
+    std::vector<Index> copies;     ///< of the last ids: of which vertex of the file
     std::vector<Warning> warnings;
     std::vector<Repair> repairs;
     double unit_mm = 1.0;                              ///< one unit of the model

@@ -8,8 +8,11 @@
 #include "core/numerics/disjoint_sets.h"
 #include "core/numerics/tolerances.h"
 #include "core/weld/check_manifold.h"
+#include "core/weld/close_holes.h"
 #include "core/weld/guess_unit.h"
+#include "core/weld/join_seams.h"
 #include "core/weld/merge_vertices.h"
+#include "core/weld/split_fans.h"
 #include "core/weld/stitch.h"
 
 namespace lastflat {
@@ -108,23 +111,21 @@ TriMesh build(const Points3& positions, const std::vector<Triangle>& triangles) 
     return mesh;
 }
 
-double size_of(const Faces& faces) {
-    Eigen::AlignedBox3d box;
-    for (const Triangle& t : faces.triangles) {
-        for (const Index v : t) box.extend(faces.position(v));
-    }
-    return box.isEmpty() ? 0.0 : box.diagonal().norm();
+bool joins_coincident(const RawMesh& raw, const WeldOptions& options) {
+    if (options.coincident) return *options.coincident == Coincident::join;
+    return options.tolerance_mm || !raw.indexed || raw.repeats_at_seams;
 }
 
-void merge_places(const RawMesh& raw, const WeldOptions& options, Faces& faces) {
-    if (options.tolerance_mm || !raw.indexed) {
-        faces.welded_to = merge_vertices(
-            faces.positions,
-            options.tolerance_mm.value_or(tolerance::same_position * size_of(faces)));
-        faces.rename();
-    } else {
+void merge_coincident(const RawMesh& raw, const WeldOptions& options, Faces& faces,
+                      std::vector<Repair>& repairs) {
+    if (!joins_coincident(raw, options)) {
         faces.welded_to = each_for_itself(faces.positions.size());
+        return;
     }
+    const double round_off = raw.indexed ? 0.0 : tolerance::same_position * size_of(faces);
+    faces.welded_to = merge_vertices(faces.positions, options.tolerance_mm.value_or(round_off));
+    faces.rename();
+    if (raw.indexed) list_joined_seams(raw.triangles, faces, repairs);
 }
 
 std::size_t count_pieces(const Faces& faces) {
@@ -142,16 +143,18 @@ void stitch_borders(double tolerance, Faces& faces, std::vector<Repair>& repairs
     stitch(faces, tolerance, repairs);
     clean_faces(faces, repairs);
     wind_alike(faces, repairs);
+    split_fans(faces);
 }
 
-/// Several pieces that stitching makes one closed model were meant as one; a pair of flat halves,
-/// or a slit, was not.
-void close_borders(const WeldOptions& options, Faces& faces, std::vector<Repair>& repairs) {
+/// Several pieces that stitching makes one closed model were meant as one, and so was one whose
+/// slits it closes, unless its slits are meant; a pair of flat halves was not.
+void close_borders(const WeldOptions& options, bool keeps_slits, Faces& faces,
+                   std::vector<Repair>& repairs) {
     if (options.stitch_mm) {
         if (*options.stitch_mm > 0.0) stitch_borders(*options.stitch_mm, faces, repairs);
         return;
     }
-    if (is_closed(faces.triangles) || count_pieces(faces) < 2) return;
+    if (is_closed(faces.triangles) || (keeps_slits && count_pieces(faces) < 2)) return;
     Faces closed = faces;
     std::vector<Repair> done = repairs;
     stitch_borders(tolerance::near_border * size_of(faces), closed, done);
@@ -173,7 +176,7 @@ void turn_outward(Faces& faces, std::vector<Repair>& repairs) {
 void select_faces(const RawMesh& raw, const WeldOptions& options, Faces& faces,
                   SurfaceMesh& surface) {
     const std::vector<bool> wanted = selected_labels(raw, options.groups);
-    Faces chosen{faces.positions, {}, {}, faces.welded_to};
+    Faces chosen{faces.positions, {}, {}, faces.welded_to, faces.copies};
     for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
         const Triangle& triangle = faces.triangles[t];
         if (wanted[faces.labels[t]]) {
@@ -197,12 +200,28 @@ void scale_lines(const RawMesh& raw, SurfaceMesh& surface) {
     }
 }
 
+/// Borders first: what is joined along a part of a border only is then joined along all of it.
+void mend(const RawMesh& raw, const WeldOptions& options, HoleRule holes, Faces& faces,
+          std::vector<Repair>& repairs) {
+    clean_faces(faces, repairs);
+    if (faces.triangles.empty())
+        throw Error(ErrorCode::mesh_degenerate, "no face is left to flatten");
+    wind_alike(faces, repairs);
+    split_fans(faces);
+    drop_strays(faces, repairs);
+    close_borders(options, !joins_coincident(raw, options), faces, repairs);
+    close_t_junctions(faces, tolerance::same_position * size_of(faces), repairs);
+    split_fans(faces);
+    if (holes == HoleRule::automatic) close_small_holes(faces, repairs);
+    turn_outward(faces, repairs);
+    list_split_vertices(faces, repairs);
+}
+
 }  // namespace
 
-SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options) {
+SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options, HoleRule holes) {
     SurfaceMesh result;
-    const UnitGuess unit =
-        options.unit_mm ? UnitGuess{*options.unit_mm, std::nullopt} : guess_unit(raw);
+    const UnitGuess unit = unit_of(raw, options);
     result.unit_mm = unit.unit_mm;
     if (unit.warning) result.warnings.push_back(*unit.warning);
     Faces faces;
@@ -213,16 +232,8 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options) {
     (void)selected_labels(raw, options.groups);  // a wrong name is said before anything else
     faces.triangles = raw.triangles;
     faces.labels = raw.triangle_labels;
-    merge_places(raw, options, faces);
-    clean_faces(faces, result.repairs);
-    if (faces.triangles.empty())
-        throw Error(ErrorCode::mesh_degenerate, "no face is left to flatten");
-    if (options.tolerance_mm || !raw.indexed)
-        close_t_junctions(faces, tolerance::same_position * size_of(faces), result.repairs);
-    wind_alike(faces, result.repairs);
-    drop_strays(faces, result.repairs);
-    close_borders(options, faces, result.repairs);
-    turn_outward(faces, result.repairs);
+    merge_coincident(raw, options, faces, result.repairs);
+    mend(raw, options, holes, faces, result.repairs);
     select_faces(raw, options, faces, result);
     if (faces.triangles.empty())
         throw Error(ErrorCode::mesh_degenerate, "no face of these groups is left to flatten");
@@ -232,6 +243,7 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options) {
     result.face_labels = faces.labels;
     scale_lines(raw, result);
     result.welded_to = std::move(faces.welded_to);
+    result.copies = std::move(faces.copies);
     return result;
 }
 

@@ -12,9 +12,12 @@ namespace lastflat {
 /// alike, every vertex one fan of faces, every face an area.
 ///
 /// Out:    `repairs` says what was done: repeated and flat faces left out, faces turned, loose
-///         pieces dropped, borders stitched, a closed model that was inside out turned.
+///         pieces dropped, seams joined, borders stitched, vertices split where the surface touched
+///         itself, small holes closed (by the rule `automatic`), a closed model that was inside out
+///         turned.
 /// Throws: Error{group_not_found, mesh_not_manifold, mesh_not_oriented (it has no two sides),
 ///         mesh_degenerate, model_too_large}, with the position in mm.
-[[nodiscard]] SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options = {});
+[[nodiscard]] SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options = {},
+                               HoleRule holes = HoleRule::automatic);
 
 }  // namespace lastflat

@@ -16,8 +16,8 @@ using Json = nlohmann::json;
 /// Every field there is, in a request that is accepted. Forms and kinds exclude each other, so
 /// there is one of each.
 const Json whole = Json::parse(R"({
-    "units": "mm", "surface": {"groups": ["upper"]},
-    "weld": {"tolerance_mm": 0.01, "stitch_mm": 0.5},
+    "units": "mm", "last_length_mm": 265, "surface": {"groups": ["upper"]},
+    "weld": {"coincident": "join", "tolerance_mm": 0.01, "stitch_mm": 0.5},
     "points": {"toe_point": {"vertex": 80}, "vamp_point": {"position": [180, 3, 60]}},
     "curves": {"front": {"vertices": [80, 240]}, "heel": {"polyline": [[0, 0, 0], [1, 0, 9]]},
                "topline": {"from": "a", "to": "b", "via": ["c"]},
@@ -114,6 +114,7 @@ TEST_SUITE("api/flatten_request") {
         };
         const Row table[] = {
             {"/units", 1e-6, 1e6, 0.99e-6, 1.01e6},
+            {"/last_length_mm", 50, 500, 49.9, 500.1},
             {"/weld/tolerance_mm", 0, 1, -1e-9, 1.01},
             {"/weld/stitch_mm", 0, 2, -1e-9, 2.01},
             {"/points/vamp_point/position/0", -1e6, 1e6, -1.01e6, 1.01e6},

@@ -215,9 +215,11 @@ TEST_SUITE("api/flatten_request") {
     }
 
     TEST_CASE("an error lists what there is instead") {
-        CHECK(detail_of(R"({"seem": 1})")
-                  .find("known here: constraints, curves, cuts, draw, holes, layout") !=
-              std::string::npos);
+        CHECK(
+            detail_of(R"({"seem": 1})")
+                .find(
+                    "known here: constraints, curves, cuts, draw, holes, last_length_mm, layout") !=
+            std::string::npos);
         CHECK(detail_of(R"({"units": "feet"})") == "must be one of: mm, cm, m, in");
     }
 

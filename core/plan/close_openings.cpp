@@ -1,0 +1,133 @@
+#include "core/plan/close_openings.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/landmarks/landmarks.h"
+#include "core/numerics/least_area.h"
+#include "core/text.h"
+#include "core/weld/guess_unit.h"
+
+namespace lastflat {
+namespace {
+
+/// More is no last's, and the triangulation takes the cube of a rim's vertices.
+constexpr std::size_t most_openings = 4, most_vertices = 1024;
+/// So near to the line found a rim lies, as a share of the last's length.
+constexpr double rim_reach = 0.02;
+
+/// As the hole's own half-edges run, so that new faces fit.
+std::vector<std::vector<OpenMesh::VertexHandle>> rims_of(const TriMesh& mesh) {
+    std::vector<std::vector<OpenMesh::VertexHandle>> rims;
+    std::vector<bool> seen(mesh.n_halfedges(), false);
+    for (const auto start : mesh.halfedges()) {
+        if (!mesh.is_boundary(start) || seen[at(start.idx())]) continue;
+        rims.emplace_back();
+        OpenMesh::HalfedgeHandle h = start;
+        do {
+            seen[at(h.idx())] = true;
+            rims.back().push_back(mesh.from_vertex_handle(h));
+            h = mesh.next_halfedge_handle(h);
+        } while (h != start);
+    }
+    return rims;
+}
+
+Points3 positions_of(const SurfaceMesh& surface, const std::vector<OpenMesh::VertexHandle>& rim) {
+    Points3 positions;
+    for (const auto v : rim) positions.push_back(surface.position(v.idx()));
+    return positions;
+}
+
+void fill(SurfaceMesh& surface, const std::vector<OpenMesh::VertexHandle>& rim) {
+    const auto beside =
+        surface.mesh.opposite_halfedge_handle(surface.mesh.find_halfedge(rim[0], rim[1]));
+    const std::uint32_t label = surface.face_labels[at(surface.mesh.face_handle(beside).idx())];
+    const auto filling =
+        least_area_triangles(positions_of(surface, rim), [&](std::size_t i, std::size_t j) {
+            return surface.mesh.find_halfedge(rim[i], rim[j]).is_valid();
+        });
+    for (const Triangle& t : filling) {
+        surface.mesh.add_face(rim[at(t[0])], rim[at(t[1])], rim[at(t[2])]);
+        surface.face_labels.push_back(label);
+    }
+}
+
+Points3 points_of(const SurfaceMesh& surface, const CurveSource& curve) {
+    if (const auto* polyline = std::get_if<Polyline>(&curve.form)) return polyline->points;
+    Points3 points;
+    for (const Index v : std::get<VertexPath>(curve.form).vertices)
+        points.push_back(surface.position(v));
+    return points;
+}
+
+/// How far the rim comes away from the line's points and the middles between them.
+double furthest_from(const Points3& line, const Points3& rim) {
+    double furthest = 0.0;
+    for (const Vec3& p : rim) {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            least = std::min(least, (line[i] - p).norm());
+            if (i > 0) least = std::min(least, (0.5 * (line[i] + line[i - 1]) - p).norm());
+        }
+        furthest = std::max(furthest, least);
+    }
+    return furthest;
+}
+
+/// The line of the last that a rim is.
+std::string line_at(const SurfaceMesh& surface, const Landmarks& found, const Points3& rim) {
+    const double length = (found.toe_point - found.heel_point).norm();
+    for (const CurveSource& curve : found.curves) {
+        if (curve.name != curve_name::topline && curve.name != curve_name::featherline) continue;
+        if (furthest_from(points_of(surface, curve), rim) < rim_reach * length) return curve.name;
+    }
+    throw Error(ErrorCode::region_invalid,
+                "the surface is open by " + position_text(rim.front()) +
+                    ", which is neither the topline nor the featherline of the last; close the "
+                    "model there, or name the curves, cuts and regions")
+        .at_option({"curves"})
+        .at_position(rim.front());
+}
+
+bool asks_nothing(const Request& request) {
+    return request.cut.cuts.empty() && request.cut.seams.empty() && request.cut.regions.empty() &&
+           request.weld.groups.empty() && request.curves.empty();
+}
+
+}  // namespace
+
+void close_openings(SurfaceMesh& surface, const Request& request) {
+    if (!asks_nothing(request)) return;
+    const auto rims = rims_of(surface.mesh);
+    const bool few = std::all_of(rims.begin(), rims.end(),
+                                 [](const auto& rim) { return rim.size() <= most_vertices; });
+    if (rims.empty() || rims.size() > most_openings || !few) return;
+    SurfaceMesh closed = surface;
+    for (const auto& rim : rims) fill(closed, rim);
+    Landmarks found;
+    try {
+        found = find_landmarks(closed);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::region_invalid) throw;
+        return;  // no last
+    }
+    const double length_mm = (found.toe_point - found.heel_point).norm();
+    if (length_mm < shortest_infant_mm || length_mm > longest_last_mm) return;
+    Repair repair{"openings_closed", "", rims.size()};
+    for (const auto& rim : rims) {
+        const Points3 points = positions_of(surface, rim);
+        double length = 0.0;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            length += (points[(i + 1) % points.size()] - points[i]).norm();
+        repair.detail += (repair.detail.empty() ? "the rim of " : "; the rim of ") +
+                         fixed_text(length, 1) + " mm was taken as the " +
+                         line_at(closed, found, points);
+        repair.positions.push_back(points.front());
+        repair.lengths_mm.push_back(length);
+    }
+    closed.repairs.push_back(std::move(repair));
+    surface = std::move(closed);
+}
+
+}  // namespace lastflat
