@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "core/numerics/types.h"
 
 namespace lastflat {
@@ -27,7 +28,8 @@ struct RawMesh {
     };
     std::vector<Line> lines;
 
-    bool indexed = true;           ///< false: triangles do not share vertices (unindexed glTF)
+    bool indexed = true;  ///< false: triangles do not share vertices (unindexed glTF)
+    std::vector<Warning> warnings;
     double default_unit_mm = 1.0;  ///< the model's unit when the request does not say: glTF 1000
 };
 

@@ -213,6 +213,7 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options) {
     (void)selected_labels(raw, options.groups);  // a wrong name is said before anything else
     faces.triangles = raw.triangles;
     faces.labels = raw.triangle_labels;
+    result.warnings = raw.warnings;
     merge_places(raw, options, faces);
     clean_faces(faces, result.repairs);
     if (faces.triangles.empty())
