@@ -127,6 +127,18 @@ void merge_places(const RawMesh& raw, const WeldOptions& options, Faces& faces) 
     }
 }
 
+/// A model without indices has a vertex for every corner: those count that merging leaves.
+void check_size(const RawMesh& raw, const Faces& faces, const LoadLimits& limits) {
+    if (raw.indexed) return;
+    std::size_t vertices = 0;
+    for (std::size_t v = 0; v < faces.welded_to.size(); ++v)
+        vertices += faces.welded_to[v] == static_cast<Index>(v) ? 1 : 0;
+    if (vertices > limits.vertices)
+        throw Error(ErrorCode::model_too_large, std::to_string(vertices) +
+                                                    " vertices after welding; at most " +
+                                                    std::to_string(limits.vertices) + " are read");
+}
+
 std::size_t count_pieces(const Faces& faces) {
     DisjointSets pieces(faces.positions.size());
     std::set<Index> roots;
@@ -199,8 +211,9 @@ void scale_lines(const RawMesh& raw, SurfaceMesh& surface) {
 
 }  // namespace
 
-SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options) {
+SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options, const LoadLimits& limits) {
     SurfaceMesh result;
+    result.warnings = raw.warnings;
     const UnitGuess unit =
         options.unit_mm ? UnitGuess{*options.unit_mm, std::nullopt} : guess_unit(raw);
     result.unit_mm = unit.unit_mm;
@@ -213,8 +226,8 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options) {
     (void)selected_labels(raw, options.groups);  // a wrong name is said before anything else
     faces.triangles = raw.triangles;
     faces.labels = raw.triangle_labels;
-    result.warnings = raw.warnings;
     merge_places(raw, options, faces);
+    check_size(raw, faces, limits);
     clean_faces(faces, result.repairs);
     if (faces.triangles.empty())
         throw Error(ErrorCode::mesh_degenerate, "no face is left to flatten");

@@ -11,10 +11,12 @@ namespace lastflat {
 /// be mended, and checks that the result is a surface: every edge has one or two faces that wind
 /// alike, every vertex one fan of faces, every face an area.
 ///
+/// In:     `limits`: the vertices that may be left of a model without indices.
 /// Out:    `repairs` says what was done: repeated and flat faces left out, faces turned, loose
 ///         pieces dropped, borders stitched, a closed model that was inside out turned.
 /// Throws: Error{group_not_found, mesh_not_manifold, mesh_not_oriented (it has no two sides),
 ///         mesh_degenerate, model_too_large}, with the position in mm.
-[[nodiscard]] SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options = {});
+[[nodiscard]] SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options = {},
+                               const LoadLimits& limits = {});
 
 }  // namespace lastflat
