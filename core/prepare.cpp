@@ -1,6 +1,7 @@
 #include "core/prepare.h"
 
 #include <map>
+#include <set>
 
 #include "core/constrain/check_constraints.h"
 #include "core/constrain/constraint_rows.h"
@@ -18,7 +19,9 @@ std::vector<std::pair<std::string, std::size_t>> count_groups(const RawMesh& raw
     std::map<std::string, std::size_t> counts;
     for (std::size_t label = 0; label < of_label.size(); ++label) {
         if (of_label[label] == 0) continue;
-        for (const std::string& group : raw.label_sets[label]) counts[group] += of_label[label];
+        const std::set<std::string> groups(raw.label_sets[label].begin(),
+                                           raw.label_sets[label].end());
+        for (const std::string& group : groups) counts[group] += of_label[label];
     }
     return {counts.begin(), counts.end()};
 }
@@ -46,7 +49,8 @@ ReadModel read_model(std::string_view model, const FlattenOptions& options, Prog
     const RawMesh raw = load_model(model, options.limits);
     ReadModel read{raw.positions.size(), raw.triangles.size(), count_groups(raw), {}, watch.lap()};
     progress.reach(Stage::weld, 0.1);
-    read.surface = weld(raw, options.request.weld, options.request.cut.holes);
+    read.surface =
+        weld(raw, options.request.weld, options.request.cut.holes, options.limits);
     close_openings(read.surface, options.request);
     return read;
 }

@@ -25,9 +25,9 @@ inline constexpr const char *lateral = "lateral", *medial = "medial";
 
 /// What a model may be at most. Every reader checks before it allocates.
 struct LoadLimits {
-    std::size_t vertices = 4'000'000;
+    std::size_t vertices = 4'000'000;  ///< after welding where the format has no indices
     std::size_t triangles = 4'000'000;
-    std::size_t polygon_corners = 1024;  ///< of one OBJ face
+    std::size_t polygon_corners = 1024;  ///< of one face
     std::size_t name_bytes = 256;        ///< of one group name
     std::size_t face_names = 64;         ///< of one face
     std::size_t name_sets = 4096;        ///< different sets of names

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <nlohmann/json.hpp>
+
+#include "core/utf8.h"
 
 namespace lastflat {
 namespace {
@@ -35,6 +38,19 @@ void guard_depth(std::string_view json, std::size_t limit) {
     }
 }
 
+/// Whether an extension, VENDOR_kind, is of a kind that leaves the triangles as they are.
+bool leaves_triangles(std::string_view extension) {
+    constexpr std::array<std::string_view, 8> kinds{
+        "texture", "materials", "techniques",    "lights",
+        "xmp",     "packing",   "mesh_features", "instance_features"};
+    const auto vendor_end = extension.find('_');
+    if (vendor_end == std::string_view::npos) return false;
+    const std::string_view kind = extension.substr(vendor_end + 1);
+    return kind.ends_with("metadata") ||
+           std::any_of(kinds.begin(), kinds.end(),
+                       [&](std::string_view known) { return kind.starts_with(known); });
+}
+
 void guard_extensions(const Json& document) {
     const auto required = document.find("extensionsRequired");
     if (required == document.end()) return;
@@ -45,10 +61,10 @@ void guard_extensions(const Json& document) {
                    "extensionsRequired holds something else than names");
         }
         const auto name = extension.get<std::string>();
-        constexpr std::array<std::string_view, 5> known{
+        constexpr std::array<std::string_view, 4> read{
             "KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
-            "KHR_materials_unlit", "KHR_texture_transform"};
-        if (contains(known, name)) continue;
+            "KHR_animation_pointer"};
+        if (contains(read, name) || leaves_triangles(name)) continue;
         refuse(ErrorCode::unsupported_model,
                "requires the extension " + name.substr(0, 80) +
                    ", which this version does not read; export without it");
@@ -75,6 +91,40 @@ void guard_files(const Json& document, const char* list) {
     }
 }
 
+/// `object` describes values of a sparse accessor; the general reader keeps 32 bits of its numbers.
+void guard_sparse_numbers(const Json& object, const std::string& accessor) {
+    for (const auto& [name, value] : object.items()) {
+        constexpr std::uint64_t largest = std::numeric_limits<std::int32_t>::max();
+        if (!value.is_number()) continue;
+        if (value.is_number_unsigned() && value.get<std::uint64_t>() <= largest) continue;
+        refuse(ErrorCode::unreadable_model,
+               accessor + " is sparse, with an impossible " + name.substr(0, 40));
+    }
+}
+
+void guard_sparse_accessors(const Json& document) {
+    const auto accessors = document.find("accessors");
+    if (accessors == document.end() || !accessors->is_array()) return;
+    for (std::size_t a = 0; a < accessors->size(); ++a) {
+        const Json& accessor = (*accessors)[a];
+        if (!accessor.is_object() || !accessor.contains("sparse")) continue;
+        const Json& sparse = accessor["sparse"];
+        guard_sparse_numbers(sparse, "accessor " + std::to_string(a));
+        for (const Json& part : sparse) guard_sparse_numbers(part, "accessor " + std::to_string(a));
+    }
+}
+
+/// Strings that are not UTF-8, each read as Latin-1. A quote is no part of a longer character.
+std::string with_utf8_strings(std::string_view json) {
+    std::string result;
+    while (!json.empty()) {
+        const std::string_view part = json.substr(0, json.find('"', 1));
+        result += as_utf8(part);
+        json.remove_prefix(part.size());
+    }
+    return result;
+}
+
 std::uint32_t read_u32(std::string_view bytes, std::size_t at) {
     std::uint32_t value = 0;
     for (std::size_t i = 4; i-- > 0;) {
@@ -85,13 +135,20 @@ std::uint32_t read_u32(std::string_view bytes, std::size_t at) {
 
 }  // namespace
 
-void guard_gltf(std::string_view json, const LoadLimits& limits) {
+std::optional<std::string> guard_gltf(std::string_view json, const LoadLimits& limits) {
+    if (!is_utf8(json)) {
+        const std::string text = with_utf8_strings(json);
+        return guard_gltf(text, limits).value_or(text);
+    }
     guard_depth(json, limits.json_depth);
-    const Json document = Json::parse(json, nullptr, false);
+    Json document = Json::parse(json, nullptr, false);
     if (!document.is_object()) refuse(ErrorCode::unreadable_model, "the JSON is not well-formed");
     guard_extensions(document);
     guard_files(document, "buffers");
     guard_files(document, "images");
+    guard_sparse_accessors(document);
+    if (document.erase("images") == 0) return std::nullopt;
+    return document.dump();
 }
 
 std::string_view json_chunk(std::string_view glb) {
@@ -108,6 +165,20 @@ std::string_view json_chunk(std::string_view glb) {
                    std::to_string(length) + ", but has " + std::to_string(glb.size()));
     }
     return glb.substr(20, length);
+}
+
+std::string with_json_chunk(std::string_view glb, std::string json) {
+    const auto number = [](std::size_t value) {
+        std::string bytes;
+        for (int i = 0; i < 4; ++i) bytes += static_cast<char>(value >> 8 * i & 0xFF);
+        return bytes;
+    };
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const std::size_t begin = 20 + std::size_t{read_u32(glb, 12)};
+    const std::size_t end = std::max<std::size_t>(begin, read_u32(glb, 8));
+    const std::string_view rest = glb.substr(begin, end - begin);
+    return std::string(glb.substr(0, 8)) + number(20 + json.size() + rest.size()) +
+           number(json.size()) + "JSON" + json + std::string(rest);
 }
 
 }  // namespace lastflat

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "core/numerics/types.h"
 
 namespace lastflat {
@@ -30,6 +31,7 @@ struct RawMesh {
     bool indexed = true;  ///< false: triangles do not share vertices (STL, unindexed glTF)
     /// Along a seam of texture or material a vertex stands more than once (glTF, PLY).
     bool repeats_at_seams = false;
+    std::vector<Warning> warnings;
     double default_unit_mm = 1.0;  ///< the model's unit when the request does not say: glTF 1000
 };
 

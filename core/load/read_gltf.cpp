@@ -1,10 +1,15 @@
 #include "core/load/read_gltf.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <compare>
 #include <map>
 
 #include "core/load/gltf_accessor.h"
 #include "core/load/gltf_guard.h"
+#include "core/load/gltf_morph.h"
+#include "core/load/gltf_nodes.h"
+#include "core/load/gltf_skin.h"
 #include "core/load/gltf_unpack.h"
 
 namespace lastflat {
@@ -16,17 +21,46 @@ namespace {
 class SceneReader {
 public:
     SceneReader(const tinygltf::Model& model, const LoadLimits& limits)
-        : model_(model), limits_(limits), on_path_(model.nodes.size(), false) {}
+        : model_(model),
+          limits_(limits),
+          nodes_(model, limits.json_depth),
+          on_path_(model.nodes.size(), false) {}
 
     RawMesh read() {
         mesh_.default_unit_mm = 1000.0;
         for (const int root : roots()) read_node(root, Eigen::Affine3d::Identity(), {}, 0);
         if (mesh_.triangles.empty()) fail_gltf("the scene has no triangles");
         mesh_.indexed = any_indices_;
+        if (any_indices_ && mesh_.positions.size() > limits_.vertices) {
+            fail_gltf("more than " + std::to_string(limits_.vertices) + " vertices",
+                      ErrorCode::model_too_large);
+        }
         return std::move(mesh_);
     }
 
 private:
+    /// What moves the vertices of a node's mesh.
+    struct Pose {
+        std::string node;
+        Eigen::Affine3d transform;
+        const std::vector<double>* weights;          ///< of its morph targets
+        const std::vector<Eigen::Affine3d>* joints;  ///< if it has a skin: then no transform
+    };
+
+    /// The accessors that vertices come from.
+    struct VertexData {
+        int positions;
+        std::vector<MorphTarget> targets;
+        std::vector<int> skin;
+        auto operator<=>(const VertexData&) const = default;
+    };
+
+    struct Vertices {
+        Index base;  ///< the id of the first
+        std::size_t count;
+        bool mirrored;
+    };
+
     std::vector<int> roots() const {
         if (!model_.scenes.empty()) {
             return item(model_.scenes, std::max(model_.defaultScene, 0), "scene").nodes;
@@ -45,48 +79,31 @@ private:
         return result;
     }
 
-    static Eigen::Affine3d transform_of(const tinygltf::Node& node) {
-        Eigen::Affine3d result = Eigen::Affine3d::Identity();
-        if (node.matrix.size() == 16) {
-            result.matrix() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());
-            return result;
-        }
-        if (node.translation.size() == 3) {
-            result.translate(Vec3(node.translation[0], node.translation[1], node.translation[2]));
-        }
-        if (node.rotation.size() == 4) {
-            const Eigen::Quaterniond q(node.rotation[3], node.rotation[0], node.rotation[1],
-                                       node.rotation[2]);
-            if (q.norm() > 0.0) result.rotate(q.normalized());
-        }
-        if (node.scale.size() == 3) {
-            result.scale(Vec3(node.scale[0], node.scale[1], node.scale[2]));
-        }
-        return result;
-    }
-
     void read_node(int index, const Eigen::Affine3d& parent, std::vector<std::string> names,
                    std::size_t depth) {
         const auto& node = item(model_.nodes, index, "node");
         if (on_path_[static_cast<std::size_t>(index)]) {
             fail_gltf("node " + std::to_string(index) + " is its own descendant");
         }
-        if (depth > limits_.json_depth || ++visits_ > max_visits) {
-            fail_gltf("the scene has too many levels or nodes", ErrorCode::model_too_large);
+        if (depth > limits_.json_depth) {
+            fail_gltf("the scene has too many levels", ErrorCode::model_too_large);
         }
+        visit(1);
         on_path_[static_cast<std::size_t>(index)] = true;
         add_name(names, node.name);
-        const Eigen::Affine3d transform = parent * transform_of(node);
+        const Eigen::Affine3d transform = parent * local_transform(node);
         if (node.mesh >= 0) {
             const auto& mesh = item(model_.meshes, node.mesh, "mesh");
-            bases_.clear();
+            vertices_.clear();
+            const Pose pose{"node " + std::to_string(index), transform, &morph_weights(node, mesh),
+                            node.skin < 0 ? nullptr : &joints_of(node.skin)};
             for (const auto& primitive : mesh.primitives) {
                 auto labels = names;
                 add_name(labels, mesh.name);
                 if (primitive.material >= 0) {
                     add_name(labels, item(model_.materials, primitive.material, "material").name);
                 }
-                read_primitive(primitive, transform, labels);
+                read_primitive(primitive, pose, labels);
             }
         }
         for (const int child : node.children) read_node(child, transform, names, depth + 1);
@@ -106,7 +123,7 @@ private:
         names.push_back(name);
     }
 
-    void read_primitive(const tinygltf::Primitive& primitive, const Eigen::Affine3d& transform,
+    void read_primitive(const tinygltf::Primitive& primitive, const Pose& pose,
                         const std::vector<std::string>& labels) {
         const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
         spend(1);
@@ -114,14 +131,11 @@ private:
             fail_gltf("the primitive mode " + std::to_string(mode) + " does not exist");
         }
         if (mode == TINYGLTF_MODE_POINTS) return;
-        const auto position = primitive.attributes.find("POSITION");
-        if (position == primitive.attributes.end()) fail_gltf("a primitive has no POSITION");
-        const auto [base, count] = read_positions(position->second, transform);
+        const auto [base, count, mirrored] = read_vertices(primitive, pose);
         auto corners = read_corners(primitive.indices, base, count);
         spend(corners.size());
         if (mode < TINYGLTF_MODE_TRIANGLES) return read_line(mode, std::move(corners), labels);
         const std::uint32_t label = label_of(labels);
-        const bool mirrored = transform.linear().determinant() < 0.0;
         const std::size_t step = mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
         for (std::size_t i = 0; i + 3 <= corners.size(); i += step) {
             Triangle triangle{corners[i], corners[i + 1], corners[i + 2]};
@@ -143,18 +157,17 @@ private:
         }
     }
 
-    template <class PositionAt>
-    Index add_positions(std::size_t count, const std::string& what, PositionAt position_at,
-                        const Eigen::Affine3d& transform) {
-        if (count > limits_.vertices - mesh_.positions.size()) {
+    Index add_positions(const Points3& positions, const Eigen::Affine3d& transform, int accessor) {
+        if (positions.size() > most_positions() - mesh_.positions.size()) {
             fail_gltf("more than " + std::to_string(limits_.vertices) + " vertices",
                       ErrorCode::model_too_large);
         }
         const auto base = static_cast<Index>(mesh_.positions.size());
-        for (std::size_t i = 0; i < count; ++i) {
-            const Vec3 position = transform * position_at(i);
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            const Vec3 position = transform * positions[i];
             if (!position.allFinite()) {
-                fail_gltf("vertex " + std::to_string(i) + " of " + what + " is not finite",
+                fail_gltf("vertex " + std::to_string(i) + " of accessor " +
+                              std::to_string(accessor) + " is not finite",
                           ErrorCode::mesh_degenerate);
             }
             mesh_.positions.push_back(position);
@@ -177,20 +190,41 @@ private:
         if (line.vertices.size() > 1) mesh_.lines.push_back(std::move(line));
     }
 
-    /// Returns the id of the first vertex and their number.
-    std::pair<Index, std::size_t> read_positions(int accessor, const Eigen::Affine3d& transform) {
-        const auto elements = elements_of(model_, accessor, TINYGLTF_TYPE_VEC3, limits_.vertices);
-        if (const auto known = bases_.find(accessor); known != bases_.end()) {
-            return {known->second, elements.count};
+    Vertices read_vertices(const tinygltf::Primitive& primitive, const Pose& pose) {
+        const auto position = primitive.attributes.find("POSITION");
+        if (position == primitive.attributes.end()) fail_gltf("a primitive has no POSITION");
+        VertexData data{position->second, morph_targets(primitive, *pose.weights), {}};
+        if (pose.joints != nullptr) data.skin = skin_accessors(primitive);
+        if (pose.joints != nullptr && data.skin.empty()) {
+            fail_gltf(pose.node + " has a skin, and its mesh no JOINTS_0; export without the skin",
+                      ErrorCode::unsupported_model);
         }
-        const Index base = add_positions(
-            elements.count, "accessor " + std::to_string(accessor),
-            [&](std::size_t i) {
-                return Vec3(elements.at(i, 0), elements.at(i, 1), elements.at(i, 2));
-            },
-            transform);
-        bases_[accessor] = base;
-        return {base, elements.count};
+        if (const auto known = vertices_.find(data); known != vertices_.end()) return known->second;
+        const auto elements =
+            elements_of(model_, data.positions, TINYGLTF_TYPE_VEC3,
+                        primitive.indices < 0 ? most_positions() : limits_.vertices);
+        spend(elements.count * (data.targets.size() + data.skin.size()));
+        Points3 positions;
+        positions.reserve(elements.count);
+        for (std::size_t i = 0; i < elements.count; ++i)
+            positions.emplace_back(elements.at(i, 0), elements.at(i, 1), elements.at(i, 2));
+        positions = morphed(model_, data.targets, std::move(positions));
+        Eigen::Affine3d transform = pose.transform;
+        bool mirrored = transform.linear().determinant() < 0.0;
+        if (pose.joints != nullptr) {
+            Skinned posed = skinned(model_, data.skin, *pose.joints, std::move(positions));
+            positions = std::move(posed.positions);
+            mirrored = posed.mirrored;
+            transform.setIdentity();
+        }
+        const Index base = add_positions(positions, transform, data.positions);
+        return vertices_[data] = {base, positions.size(), mirrored};
+    }
+
+    const std::vector<Eigen::Affine3d>& joints_of(int skin) {
+        if (const auto known = joints_.find(skin); known != joints_.end()) return known->second;
+        visit(item(model_.skins, skin, "skin").joints.size());
+        return joints_[skin] = joint_matrices(model_, skin, nodes_);
     }
 
     std::vector<Index> read_corners(int accessor, Index base, std::size_t count) {
@@ -220,12 +254,26 @@ private:
         return corners;
     }
 
+    /// Three corners a triangle may be vertices of their own where there are no indices: they are
+    /// counted when they are welded.
+    [[nodiscard]] std::size_t most_positions() const {
+        return std::max(limits_.vertices, 3 * limits_.triangles);
+    }
+
+    void visit(std::size_t nodes) {
+        visits_ += nodes;
+        if (visits_ > max_visits) {
+            fail_gltf("the scene has too many nodes", ErrorCode::model_too_large);
+        }
+    }
+
     /// Counts work that leaves no trace in the mesh: primitives without triangles, strips of
     /// repeated vertices, shared accessors read again and again.
     void spend(std::size_t work) {
         work_ += work;
         if (work_ > 4 * limits_.triangles) {
-            fail_gltf("the scene repeats its primitives too often", ErrorCode::model_too_large);
+            fail_gltf("the scene repeats its primitives, or moves its vertices, too often",
+                      ErrorCode::model_too_large);
         }
     }
 
@@ -245,9 +293,11 @@ private:
     static constexpr std::size_t max_visits = 100'000;
     const tinygltf::Model& model_;
     LoadLimits limits_;
+    NodeTransforms nodes_;
     RawMesh mesh_;
-    std::vector<bool> on_path_;   ///< per node, whether it is being read
-    std::map<int, Index> bases_;  ///< of the node at hand: accessor to first vertex id
+    std::vector<bool> on_path_;                           ///< per node, whether it is being read
+    std::map<VertexData, Vertices> vertices_;             ///< of the node at hand
+    std::map<int, std::vector<Eigen::Affine3d>> joints_;  ///< per skin
     std::map<std::vector<std::string>, std::uint32_t> known_labels_;
     std::size_t visits_ = 0, work_ = 0;
     bool any_indices_ = false;
@@ -295,15 +345,20 @@ RawMesh read_with_tinygltf(std::string_view bytes, bool binary, const LoadLimits
 }  // namespace
 
 RawMesh read_gltf(std::string_view text, const LoadLimits& limits) {
-    guard_gltf(text, limits);
-    if (is_packed_gltf(text)) return read_with_tinygltf(unpack_gltf(text, limits), true, limits);
-    return read_with_tinygltf(text, false, limits);
+    const std::optional<std::string> rewritten = guard_gltf(text, limits);
+    const std::string_view json = rewritten ? std::string_view(*rewritten) : text;
+    if (is_packed_gltf(json)) return read_with_tinygltf(unpack_gltf(json, limits), true, limits);
+    return read_with_tinygltf(json, false, limits);
 }
 
 RawMesh read_glb(std::string_view bytes, const LoadLimits& limits) {
-    const std::string_view json = json_chunk(bytes);
-    guard_gltf(json, limits);
-    if (is_packed_gltf(json)) return read_with_tinygltf(unpack_glb(bytes, limits), true, limits);
+    std::string rewritten;
+    if (const auto json = guard_gltf(json_chunk(bytes), limits)) {
+        rewritten = with_json_chunk(bytes, *json);
+        bytes = rewritten;
+    }
+    if (is_packed_gltf(json_chunk(bytes)))
+        return read_with_tinygltf(unpack_glb(bytes, limits), true, limits);
     return read_with_tinygltf(bytes, true, limits);
 }
 

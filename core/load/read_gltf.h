@@ -9,9 +9,10 @@ namespace lastflat {
 
 /// Reads the triangles (lists, strips, fans) and lines of the default scene. Positions may be
 /// interleaved, unindexed, normalised or quantized (KHR_mesh_quantization); node transforms are
-/// applied, and a mirroring one turns the winding. Primitives of one node that share an accessor
-/// share its vertices. Names of nodes (with their ancestors), meshes and materials are the groups.
-/// Images are never decoded; no other file is ever opened.
+/// applied, and a mirroring one turns the winding; so are the weights of morph targets, and skins,
+/// their joints at rest. Primitives of one node that share their accessors share the vertices.
+/// Names of nodes (with their ancestors), meshes and materials are the groups. Images are never
+/// decoded; no other file is ever opened.
 ///
 /// Throws: Error{unreadable_model, unsupported_model, model_too_large, mesh_degenerate} naming the
 ///         extension, the file, the accessor or the node at fault.

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <map>
 
+#include "core/load/text_scanner.h"
 #include "core/load/triangulate_polygon.h"
+#include "core/utf8.h"
 
 namespace lastflat {
 namespace {
@@ -35,11 +37,7 @@ private:
 
     std::string_view next_line() {
         ++line_;
-        const auto end = rest_.find('\n');
-        std::string_view line = rest_.substr(0, end);
-        rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-        return line;
+        return take_line(rest_);
     }
 
     /// One logical line: a backslash at the end joins it with the next.
@@ -168,7 +166,7 @@ private:
 
     std::string checked_name(std::string_view name) const {
         if (name.size() > limits_.name_bytes) too_large("bytes of a name", limits_.name_bytes);
-        return std::string(name);
+        return as_utf8(name);
     }
 
     std::vector<std::string> read_names(std::string_view line) const {

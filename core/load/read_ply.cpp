@@ -1,13 +1,14 @@
 #include "core/load/read_ply.h"
 
+#include <algorithm>
 #include <array>
-#include <limits>
 #include <memory>
 #include <optional>
 
 #include "core/load/byte_order.h"
 #include "core/load/text_scanner.h"
 #include "core/load/triangulate_polygon.h"
+#include "core/text.h"
 
 namespace lastflat {
 namespace {
@@ -40,24 +41,39 @@ std::size_t size_of(Scalar type) {
     return 8;
 }
 
-[[noreturn]] void fail_ply(const std::string& what, ErrorCode code = ErrorCode::unreadable_model) {
-    throw Error(code, "PLY: " + what);
-}
-
 /// Where the numbers of the body come from.
 class Source {
 public:
     virtual ~Source() = default;
     virtual double next(Scalar type) = 0;
+    /// After the last value of an item.
+    virtual void end_item() = 0;
     /// Bytes that are left: no element can be shorter than one a property.
     [[nodiscard]] virtual std::size_t left() const = 0;
+    /// What stands in every message: the format, and the line if there are any.
+    [[nodiscard]] virtual std::string place() const = 0;
+
+    [[noreturn]] void fail(const std::string& what,
+                           ErrorCode code = ErrorCode::unreadable_model) const {
+        throw Error(code, place() + ": " + what);
+    }
 };
 
 class TextSource final : public Source {
 public:
     explicit TextSource(const TextScanner& scanner) : scanner_(scanner) {}
     double next(Scalar) override { return scanner_.next_number(); }
+    void end_item() override {
+        const std::string_view more = scanner_.peek_line();
+        if (!more.empty())
+            fail("'" + std::string(more.substr(0, 40)) +
+                 "' is left over behind the values that the header announces");
+        (void)scanner_.at_end();
+    }
     [[nodiscard]] std::size_t left() const override { return scanner_.rest().size(); }
+    [[nodiscard]] std::string place() const override {
+        return "PLY line " + std::to_string(scanner_.line());
+    }
 
 private:
     TextScanner scanner_;
@@ -68,7 +84,7 @@ public:
     BinarySource(std::string_view bytes, ByteOrder order) : rest_(bytes), order_(order) {}
     double next(Scalar type) override {
         const std::size_t size = size_of(type);
-        if (rest_.size() < size) fail_ply("the file ends before its last element");
+        if (rest_.size() < size) fail("the file ends before its last element");
         const std::string_view at = rest_;
         rest_.remove_prefix(size);
         switch (type) {
@@ -85,7 +101,9 @@ public:
         }
         return 0.0;
     }
+    void end_item() override {}
     [[nodiscard]] std::size_t left() const override { return rest_.size(); }
+    [[nodiscard]] std::string place() const override { return "PLY"; }
 
 private:
     std::string_view rest_;
@@ -95,20 +113,23 @@ private:
 class PlyReader {
 public:
     PlyReader(std::string_view bytes, const LoadLimits& limits)
-        : scanner_(bytes, "PLY"), limits_(limits) {}
+        : scanner_(bytes, "PLY"),
+          limits_(limits),
+          line_end_(bytes.substr(3, 1) == "\r" && bytes.substr(4, 1) != "\n" ? '\r' : '\n') {}
 
     RawMesh read() {
         const auto source = read_header();
         mesh_.label_sets.emplace_back();
         for (const Element& element : elements_) read_element(element, *source);
-        for (const Index corner : used_) {
-            if (corner >= static_cast<Index>(mesh_.positions.size()))
-                fail_ply("a face names vertex " + std::to_string(corner) + " of " +
-                         std::to_string(mesh_.positions.size()));
-        }
-        if (mesh_.positions.empty()) fail_ply("no element 'vertex'");
+        if (mesh_.positions.empty()) source->fail("no element 'vertex'");
         split_polygons();
-        if (mesh_.triangles.empty()) fail_ply("no face; points have no surface");
+        if (mesh_.triangles.empty()) source->fail("no face; points have no surface");
+        if (source->left() > 0)
+            mesh_.warnings.push_back({"trailing_bytes",
+                                      source->place() + ": " + std::to_string(source->left()) +
+                                          " bytes follow the last element that the header "
+                                          "announces; they were passed over",
+                                      std::nullopt});
         return std::move(mesh_);
     }
 
@@ -152,19 +173,40 @@ private:
             } else if (word == "property") {
                 read_property();
             } else if (word == "end_header") {
-                (void)scanner_.rest_of_line();
                 break;
             } else {
                 (void)scanner_.rest_of_line();  // comment, obj_info
             }
         }
-        if (format == "ascii") return std::make_unique<TextSource>(scanner_);
+        count_vertices();
+        if (format == "ascii") {
+            (void)scanner_.rest_of_line();
+            return std::make_unique<TextSource>(scanner_);
+        }
         if (format == "binary_little_endian")
-            return std::make_unique<BinarySource>(scanner_.rest(), ByteOrder::little);
+            return std::make_unique<BinarySource>(binary_body(), ByteOrder::little);
         if (format == "binary_big_endian")
-            return std::make_unique<BinarySource>(scanner_.rest(), ByteOrder::big);
-        fail_ply("the format '" + format.substr(0, 40) + "' is not known",
-                 ErrorCode::unsupported_model);
+            return std::make_unique<BinarySource>(binary_body(), ByteOrder::big);
+        scanner_.fail("the format '" + format.substr(0, 40) + "' is not known",
+                      ErrorCode::unsupported_model);
+    }
+
+    void count_vertices() {
+        for (const Element& element : elements_) {
+            if (element.name != "vertex" || element.properties.empty()) continue;
+            if (element.count > limits_.vertices - vertices_)
+                scanner_.fail(std::to_string(element.count) + " vertices; at most " +
+                                  std::to_string(limits_.vertices) + " are read",
+                              ErrorCode::model_too_large);
+            vertices_ += element.count;
+        }
+    }
+
+    /// Behind the line of `end_header`. Where lines end with CR alone, a LF that follows is data.
+    [[nodiscard]] std::string_view binary_body() const {
+        std::string_view body = scanner_.rest();
+        body.remove_prefix(std::min(body.find(line_end_), body.size()));
+        return body.substr(std::min<std::size_t>(body.size(), 1));
     }
 
     void read_property() {
@@ -185,28 +227,29 @@ private:
     void read_element(const Element& element, Source& source) {
         if (element.properties.empty()) return;
         if (element.count > source.left())
-            fail_ply("the element '" + element.name.substr(0, 40) + "' announces " +
-                     std::to_string(element.count) + " items, and " +
-                     std::to_string(source.left()) + " bytes are left");
-        if (element.name == "vertex") {
-            read_vertices(element, source);
-            return;
-        }
+            source.fail("the element '" + element.name.substr(0, 40) + "' announces " +
+                        std::to_string(element.count) + " items, and " +
+                        std::to_string(source.left()) + " bytes are left");
+        if (element.name == "vertex") return read_vertices(element, source);
+        const bool are_faces = element.name == "face", are_strips = element.name == "tristrips";
         for (std::uint64_t i = 0; i < element.count; ++i) {
             for (const Property& property : element.properties) {
                 const bool corners =
-                    element.name == "face" && property.count_type &&
+                    (are_faces || are_strips) && property.count_type &&
                     (property.name == "vertex_indices" || property.name == "vertex_index");
-                read_value(property, source, corners);
+                if (!corners) {
+                    (void)read_value(property, source);
+                } else if (are_faces) {
+                    read_face(property, source);
+                } else {
+                    read_strips(property, source);
+                }
             }
+            source.end_item();
         }
     }
 
     void read_vertices(const Element& element, Source& source) {
-        if (element.count > limits_.vertices)
-            fail_ply(std::to_string(element.count) + " vertices; at most " +
-                         std::to_string(limits_.vertices) + " are read",
-                     ErrorCode::model_too_large);
         std::array<std::size_t, 3> properties{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             properties[axis] = element.properties.size();
@@ -215,50 +258,95 @@ private:
                     properties[axis] = p;
             }
             if (properties[axis] == element.properties.size())
-                fail_ply("the vertices have no property '" +
-                         std::string(1, static_cast<char>('x' + axis)) + "'");
+                source.fail("the vertices have no property '" +
+                            std::string(1, static_cast<char>('x' + axis)) + "'");
         }
         for (std::uint64_t i = 0; i < element.count; ++i) {
             Vec3 position = Vec3::Zero();
             for (std::size_t p = 0; p < element.properties.size(); ++p) {
-                const double value = read_value(element.properties[p], source, false);
+                const double value = read_value(element.properties[p], source);
                 for (std::size_t axis = 0; axis < 3; ++axis) {
                     if (properties[axis] == p) position[static_cast<Eigen::Index>(axis)] = value;
                 }
             }
             if (!position.allFinite())
-                fail_ply("vertex " + std::to_string(i) + " is not finite",
-                         ErrorCode::mesh_degenerate);
+                source.fail("vertex " + std::to_string(i) + " is not finite",
+                            ErrorCode::mesh_degenerate);
             mesh_.positions.push_back(position);
+            source.end_item();
         }
     }
 
-    /// The last value read; a list of corners becomes a polygon.
-    double read_value(const Property& property, Source& source, bool corners) {
-        if (!property.count_type) return source.next(property.type);
+    static double read_count(const Property& property, Source& source) {
         const double count = source.next(*property.count_type);
         if (!(count >= 0.0) || count > static_cast<double>(source.left()))
-            fail_ply("a list is longer than the file");
-        if (corners && count > static_cast<double>(limits_.polygon_corners))
-            fail_ply("a face has more than " + std::to_string(limits_.polygon_corners) + " corners",
-                     ErrorCode::model_too_large);
+            source.fail("a list is longer than the file");
+        return count;
+    }
+
+    /// The last value read.
+    static double read_value(const Property& property, Source& source) {
+        if (!property.count_type) return source.next(property.type);
+        const double count = read_count(property, source);
         double value = 0.0;
-        for (double i = 0.0; i < count; ++i) {
-            value = source.next(property.type);
-            if (corners) used_.push_back(corner(value));
-        }
-        if (corners) {
-            ends_.push_back(used_.size());
-            if (ends_.size() > limits_.triangles)
-                fail_ply("more than " + std::to_string(limits_.triangles) + " faces",
-                         ErrorCode::model_too_large);
-        }
+        for (double i = 0.0; i < count; ++i) value = source.next(property.type);
         return value;
     }
 
-    static Index corner(double value) {
-        if (!(value >= 0.0) || value > static_cast<double>(std::numeric_limits<Index>::max()))
-            fail_ply("a face names a vertex that does not exist");
+    void read_face(const Property& property, Source& source) {
+        const double count = read_count(property, source);
+        if (count < 3.0) source.fail("a face has fewer than three corners");
+        if (count > static_cast<double>(limits_.polygon_corners))
+            source.fail(
+                "a face has more than " + std::to_string(limits_.polygon_corners) + " corners",
+                ErrorCode::model_too_large);
+        for (double i = 0.0; i < count; ++i)
+            used_.push_back(corner(source.next(property.type), source));
+        end_polygon(source);
+    }
+
+    /// Strips, with -1 between them; of every second triangle the winding is turned.
+    void read_strips(const Property& property, Source& source) {
+        const double count = read_count(property, source);
+        strip_values_ += count;
+        if (strip_values_ > 4.0 * static_cast<double>(limits_.triangles))
+            source.fail("the strips are too long", ErrorCode::model_too_large);
+        Index before_last = 0, last = 0;
+        std::size_t length = 0;
+        for (double i = 0.0; i < count; ++i) {
+            const double value = source.next(property.type);
+            if (value == -1.0) {
+                length = 0;
+                continue;
+            }
+            const Index next = corner(value, source);
+            const bool repeats = before_last == last || last == next || next == before_last;
+            if (length >= 2 && !repeats) {
+                const bool odd = length % 2 == 1;
+                used_.insert(used_.end(),
+                             {odd ? last : before_last, odd ? before_last : last, next});
+                end_polygon(source);
+            }
+            before_last = last;
+            last = next;
+            ++length;
+        }
+    }
+
+    void end_polygon(const Source& source) {
+        const std::size_t begin = ends_.empty() ? 0 : ends_.back();
+        triangles_ += used_.size() - begin - 2;
+        ends_.push_back(used_.size());
+        if (triangles_ > limits_.triangles)
+            source.fail("more than " + std::to_string(limits_.triangles) + " triangles",
+                        ErrorCode::model_too_large);
+    }
+
+    [[nodiscard]] Index corner(double value, const Source& source) const {
+        if (!(value >= 0.0)) source.fail("a face names a vertex that does not exist");
+        if (value >= static_cast<double>(vertices_))
+            source.fail("a face names vertex " + fixed_text(value, 0) + " of " +
+                        std::to_string(vertices_));
         return static_cast<Index>(value);
     }
 
@@ -267,21 +355,21 @@ private:
         for (const std::size_t end : ends_) {
             const std::span<const Index> corners(used_.data() + begin, end - begin);
             begin = end;
-            if (corners.size() < 3) fail_ply("a face has fewer than three corners");
             for (const Triangle& triangle : triangulate_polygon(mesh_.positions, corners)) {
                 mesh_.triangles.push_back(triangle);
                 mesh_.triangle_labels.push_back(0);
             }
-            if (mesh_.triangles.size() > limits_.triangles)
-                fail_ply("more than " + std::to_string(limits_.triangles) + " triangles",
-                         ErrorCode::model_too_large);
         }
     }
 
     static constexpr std::size_t most_parts = 256;
     TextScanner scanner_;
     const LoadLimits& limits_;
+    char line_end_;  ///< the last character of the header's lines
     std::vector<Element> elements_;
+    std::size_t vertices_ = 0;   ///< that the header announces
+    std::size_t triangles_ = 0;  ///< of all polygons
+    double strip_values_ = 0.0;
     std::vector<Index> used_;        ///< corners of all polygons, one after the other
     std::vector<std::size_t> ends_;  ///< where each polygon's corners end
     RawMesh mesh_;

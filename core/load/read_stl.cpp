@@ -6,6 +6,7 @@
 
 #include "core/load/byte_order.h"
 #include "core/load/text_scanner.h"
+#include "core/utf8.h"
 
 namespace lastflat {
 namespace {
@@ -17,9 +18,20 @@ bool has_word(std::string_view text, std::string_view word) {
     return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
 }
 
+/// Without the empty lines and the comments that some programs write before the first solid.
+std::string_view without_comments(std::string_view text) {
+    for (;;) {
+        const auto first = text.find_first_not_of(" \t\r\n");
+        if (first == std::string_view::npos) return {};
+        text.remove_prefix(first);
+        if (text.front() != '#') return text;
+        (void)take_line(text);
+    }
+}
+
 bool is_text(std::string_view bytes) {
     constexpr std::size_t look = 2048;
-    const std::string_view begin = bytes.substr(0, look);
+    const std::string_view begin = without_comments(bytes).substr(0, look);
     return has_word(begin.substr(0, 6), "solid") && begin.find('\0') == std::string_view::npos &&
            (has_word(begin, "facet") || has_word(begin, "endsolid"));
 }
@@ -33,19 +45,35 @@ bool fits_exactly(std::string_view bytes) {
            bytes.size() == header_bytes + announced(bytes) * facet_bytes;
 }
 
+/// Whether there are all triangles that the file announces, and perhaps more.
+bool holds_announced(std::string_view bytes) {
+    return bytes.size() > header_bytes && announced(bytes) > 0 &&
+           announced(bytes) <= (bytes.size() - header_bytes) / facet_bytes;
+}
+
 void add_triangle(RawMesh& mesh, const LoadLimits& limits, std::uint32_t label) {
     const auto last = static_cast<Index>(mesh.positions.size());
-    if (mesh.triangles.size() >= std::min(limits.triangles, limits.vertices / 3))
+    if (mesh.triangles.size() >= limits.triangles)
         throw Error(ErrorCode::model_too_large,
                     "STL: more than " + std::to_string(mesh.triangles.size()) + " triangles");
     mesh.triangles.push_back({last - 3, last - 2, last - 1});
     mesh.triangle_labels.push_back(label);
 }
 
+Warning left_over(std::size_t bytes, std::uint64_t triangles) {
+    const std::size_t more = bytes / facet_bytes;
+    return {"trailing_bytes",
+            "STL: " + std::to_string(bytes) + " bytes follow the " + std::to_string(triangles) +
+                " triangles that the file announces" +
+                (more > 0 ? " (room for " + std::to_string(more) + " more)" : "") +
+                "; they were passed over",
+            std::nullopt};
+}
+
 RawMesh read_binary(std::string_view bytes, const LoadLimits& limits) {
     const std::size_t body = bytes.size() - header_bytes;
     std::uint64_t count = announced(bytes);
-    if (count == 0 || count * facet_bytes > body) {
+    if (!holds_announced(bytes)) {
         if (body % facet_bytes != 0 || body == 0)
             throw Error(ErrorCode::unreadable_model,
                         "STL: " + std::to_string(count) + " triangles are announced, and " +
@@ -54,12 +82,13 @@ RawMesh read_binary(std::string_view bytes, const LoadLimits& limits) {
                             " are needed; the file was cut off");
         count = body / facet_bytes;
     }
-    if (count > std::min(limits.triangles, limits.vertices / 3))
-        throw Error(ErrorCode::model_too_large,
-                    "STL: " + std::to_string(count) + " triangles; at most " +
-                        std::to_string(std::min(limits.triangles, limits.vertices / 3)) +
-                        " are read");
+    if (count > limits.triangles)
+        throw Error(ErrorCode::model_too_large, "STL: " + std::to_string(count) +
+                                                    " triangles; at most " +
+                                                    std::to_string(limits.triangles) + " are read");
     RawMesh mesh;
+    if (body > count * facet_bytes)
+        mesh.warnings.push_back(left_over(body - count * facet_bytes, count));
     mesh.label_sets.emplace_back();
     mesh.positions.reserve(3 * count);
     for (std::uint64_t t = 0; t < count; ++t) {
@@ -92,7 +121,7 @@ public:
                 label_ = label_of(scanner_.rest_of_line());
             } else if (word == "facet") {
                 read_facet();
-            } else if (word == "endsolid") {
+            } else if (word == "endsolid" || word.front() == '#') {
                 (void)scanner_.rest_of_line();
             } else {
                 scanner_.fail("'" + word.substr(0, 40) + "' where a facet should begin");
@@ -132,11 +161,11 @@ private:
             scanner_.fail("a name is too long", ErrorCode::model_too_large);
         if (solid.empty()) return 0;
         const auto next = static_cast<std::uint32_t>(mesh_.label_sets.size());
-        const auto [found, is_new] = labels_.try_emplace(std::string(solid), next);
+        const auto [found, is_new] = labels_.try_emplace(as_utf8(solid), next);
         if (is_new) {
             if (next >= limits_.name_sets)
                 scanner_.fail("too many solids", ErrorCode::model_too_large);
-            mesh_.label_sets.push_back({std::string(solid)});
+            mesh_.label_sets.push_back({found->first});
         }
         return found->second;
     }
@@ -155,7 +184,7 @@ bool is_stl(std::string_view bytes) {
     // A binary file whose count lies: its header is text or zeros, and what follows is no text.
     return bytes.size() > header_bytes &&
            bytes.substr(80).substr(0, 512).find('\0') != std::string_view::npos &&
-           (bytes.size() - header_bytes) % facet_bytes == 0;
+           (holds_announced(bytes) || (bytes.size() - header_bytes) % facet_bytes == 0);
 }
 
 RawMesh read_stl(std::string_view bytes, const LoadLimits& limits) {

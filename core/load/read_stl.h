@@ -12,8 +12,9 @@ namespace lastflat {
 
 /// Reads the triangles of every solid; solids' names are groups, normals are passed over.
 ///
-/// In:     STL bytes. A binary file's count may lie: the bytes that are there decide, if they are
-///         whole triangles.
+/// In:     STL bytes. A binary file's count may be 0 or too large: the bytes that are there decide,
+///         if they are whole triangles. What follows the triangles of a count is passed over, with
+///         the warning `trailing_bytes`. Comments (`#`) may stand before and between solids.
 /// Out:    three vertices a triangle, not shared (`indexed` is false): triangle t has the vertices
 ///         3 t, 3 t + 1, 3 t + 2.
 /// Throws: Error{unreadable_model, model_too_large} naming the line or the bytes that are missing.

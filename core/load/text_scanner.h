@@ -1,6 +1,7 @@
 // Words and numbers of a text format, with the line for whoever has to mend the file.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +11,21 @@
 #include "core/error.h"
 
 namespace lastflat {
+
+/// Takes the first line away, and returns it without its end: LF, CR LF or CR.
+[[nodiscard]] inline std::string_view take_line(std::string_view& text) {
+    const auto is_end = [](char c) { return c == '\n' || c == '\r'; };
+    const auto size =
+        static_cast<std::size_t>(std::find_if(text.begin(), text.end(), is_end) - text.begin());
+    const std::string_view line = text.substr(0, size);
+    text.remove_prefix(size);
+    if (text.substr(0, 2) == "\r\n") {
+        text.remove_prefix(2);
+    } else if (!text.empty()) {
+        text.remove_prefix(1);
+    }
+    return line;
+}
 
 class TextScanner {
 public:
@@ -25,13 +41,17 @@ public:
     }
     /// What is left of the current line, without spaces around it; the next line is then current.
     [[nodiscard]] std::string_view rest_of_line() {
-        const auto end = rest_.find('\n');
-        std::string_view line = rest_.substr(0, end);
-        rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-        if (end != std::string_view::npos) ++line_;
+        const std::size_t before = rest_.size();
+        const std::string_view line = take_line(rest_);
+        if (line.size() < before) ++line_;
         const auto first = line.find_first_not_of(white);
         if (first == std::string_view::npos) return {};
         return line.substr(first, line.find_last_not_of(white) + 1 - first);
+    }
+    /// What is left of the current line, which stays the current one.
+    [[nodiscard]] std::string_view peek_line() const {
+        std::string_view rest = rest_;
+        return TextScanner(take_line(rest), format_).rest_of_line();
     }
     [[nodiscard]] double next_number() {
         std::string_view word = next_word();
@@ -59,6 +79,8 @@ public:
     /// The bytes after what was read.
     [[nodiscard]] std::string_view rest() const { return rest_; }
 
+    [[nodiscard]] std::size_t line() const { return line_; }
+
     [[noreturn]] void fail(const std::string& what,
                            ErrorCode code = ErrorCode::unreadable_model) const {
         throw Error(code, std::string(format_) + " line " + std::to_string(line_) + ": " + what);
@@ -68,7 +90,10 @@ private:
     static constexpr std::string_view white = " \t\r\n\f\v";
     void skip_space() {
         const auto first = std::min(rest_.find_first_not_of(white), rest_.size());
-        for (const char c : rest_.substr(0, first)) line_ += c == '\n' ? 1 : 0;
+        for (std::size_t i = 0; i < first; ++i) {
+            const bool is_pair = rest_.substr(i, 2) == "\r\n";
+            line_ += !is_pair && (rest_[i] == '\n' || rest_[i] == '\r') ? 1 : 0;
+        }
         rest_.remove_prefix(first);
     }
 

@@ -128,6 +128,18 @@ void merge_coincident(const RawMesh& raw, const WeldOptions& options, Faces& fac
     if (raw.indexed) list_joined_seams(raw.triangles, faces, repairs);
 }
 
+/// A model without indices has a vertex for every corner: those count that merging leaves.
+void check_size(const RawMesh& raw, const Faces& faces, const LoadLimits& limits) {
+    if (raw.indexed) return;
+    std::size_t vertices = 0;
+    for (std::size_t v = 0; v < faces.welded_to.size(); ++v)
+        vertices += faces.welded_to[v] == static_cast<Index>(v) ? 1 : 0;
+    if (vertices > limits.vertices)
+        throw Error(ErrorCode::model_too_large, std::to_string(vertices) +
+                                                    " vertices after welding; at most " +
+                                                    std::to_string(limits.vertices) + " are read");
+}
+
 std::size_t count_pieces(const Faces& faces) {
     DisjointSets pieces(faces.positions.size());
     std::set<Index> roots;
@@ -219,8 +231,10 @@ void mend(const RawMesh& raw, const WeldOptions& options, HoleRule holes, Faces&
 
 }  // namespace
 
-SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options, HoleRule holes) {
+SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options, HoleRule holes,
+                 const LoadLimits& limits) {
     SurfaceMesh result;
+    result.warnings = raw.warnings;
     const UnitGuess unit = unit_of(raw, options);
     result.unit_mm = unit.unit_mm;
     if (unit.warning) result.warnings.push_back(*unit.warning);
@@ -233,6 +247,7 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options, HoleRule holes)
     faces.triangles = raw.triangles;
     faces.labels = raw.triangle_labels;
     merge_coincident(raw, options, faces, result.repairs);
+    check_size(raw, faces, limits);
     mend(raw, options, holes, faces, result.repairs);
     select_faces(raw, options, faces, result);
     if (faces.triangles.empty())

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/utf8.h"
 #include "server/http/text.h"
 
 namespace lastflat::http {

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/utf8.h"
 #include "server/http/refusal.h"
 #include "server/http/text.h"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 
 namespace lastflat::http {
 namespace {
@@ -21,21 +20,6 @@ std::optional<int> hex_digit(char c) {
 bool is_token_character(char c) {
     if ((c >= '0' && c <= '9') || (lower_letter(c) >= 'a' && lower_letter(c) <= 'z')) return true;
     return c != '\0' && std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
-}
-
-/// How many bytes follow a first byte of UTF-8, and which code points they may give.
-struct Utf8Form {
-    int following;
-    std::uint32_t first_bits;
-    std::uint32_t smallest;
-};
-
-std::optional<Utf8Form> utf8_form(unsigned char first) {
-    if (first < 0x80) return Utf8Form{0, first, 0};
-    if (first >= 0xC2 && first < 0xE0) return Utf8Form{1, first & 0x1Fu, 0x80};
-    if (first >= 0xE0 && first < 0xF0) return Utf8Form{2, first & 0x0Fu, 0x800};
-    if (first >= 0xF0 && first < 0xF5) return Utf8Form{3, first & 0x07u, 0x10000};
-    return std::nullopt;
 }
 
 /// Reads a quoted string whose opening quote is at `at`; leaves `at` behind the closing one.
@@ -77,23 +61,6 @@ bool is_token(std::string_view text) {
 bool has_control_characters(std::string_view text) {
     return std::any_of(text.begin(), text.end(),
                        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
-}
-
-bool is_utf8(std::string_view text) {
-    for (std::size_t at = 0; at < text.size();) {
-        const auto form = utf8_form(static_cast<unsigned char>(text[at++]));
-        if (!form) return false;
-        std::uint32_t point = form->first_bits;
-        for (int i = 0; i < form->following; ++i, ++at) {
-            if (at == text.size()) return false;
-            const auto byte = static_cast<unsigned char>(text[at]);
-            if ((byte & 0xC0u) != 0x80u) return false;
-            point = point << 6 | (byte & 0x3Fu);
-        }
-        const bool surrogate = point >= 0xD800 && point <= 0xDFFF;
-        if (point < form->smallest || point > 0x10FFFF || surrogate) return false;
-    }
-    return true;
 }
 
 std::optional<std::string> percent_decoded(std::string_view text, bool plus_is_space) {

@@ -19,9 +19,6 @@ constexpr std::string_view line_end = "\r\n";
 
 [[nodiscard]] bool has_control_characters(std::string_view text);
 
-/// Well-formed UTF-8: no surrogates, no overlong forms, nothing above U+10FFFF.
-[[nodiscard]] bool is_utf8(std::string_view text);
-
 /// Nothing if a '%' is not followed by two hexadecimal digits.
 [[nodiscard]] std::optional<std::string> percent_decoded(std::string_view text, bool plus_is_space);
 

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/helpers/errors.h"
 #include "tests/helpers/sample.h"
 #include "tests/helpers/sheets.h"
 
@@ -62,6 +63,35 @@ TEST_SUITE("core/inspect") {
         CHECK(opened.regions.at(0).holes.empty());
         REQUIRE(opened.warnings.size() == 1);
         CHECK(opened.warnings[0].code == "seam_added");
+    }
+
+    TEST_CASE("a face that bears one name twice is counted once") {
+        const Inspection found = inspect("v 0 0 0\nv 9 0 0\nv 0 9 0\ng a\no a\nf 1 2 3\n", {});
+        CHECK(found.groups == std::vector<std::pair<std::string, std::size_t>>{{"a", 1}});
+    }
+
+    TEST_CASE("vertices that are not shared in the file count after welding") {
+        std::string stl = "solid square\n";
+        for (const char* corners :
+             {"vertex 0 0 0 vertex 9 0 0 vertex 9 9 0", "vertex 0 0 0 vertex 9 9 0 vertex 0 9 0"})
+            stl += std::string("facet normal 0 0 1\nouter loop ") + corners + " endloop endfacet\n";
+        FlattenOptions options;
+        options.limits.vertices = 4;
+        CHECK(inspect(stl, options).vertices == 4);
+        options.limits.vertices = 3;
+        CHECK(test::has(test::error_of([&] { (void)inspect(stl, options); }),
+                        "model_too_large: 4 vertices after welding; at most 3"));
+    }
+
+    TEST_CASE("what the reader passed over is among the warnings") {
+        const std::string square =
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+            "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+            "end_header\n0 0 0\n200 0 0\n0 99 0\n3 0 1 2\n";
+        CHECK(inspect(square, {}).warnings.empty());
+        const Inspection found = inspect(square + "3 0 2 1\n", {});
+        REQUIRE(found.warnings.size() == 1);
+        CHECK(found.warnings[0].code == "trailing_bytes");
     }
 
     TEST_CASE("what is no surface is an error") {

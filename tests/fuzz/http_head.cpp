@@ -1,4 +1,5 @@
 // Any bytes as the head of a request, in one piece and byte by byte.
+#include "core/utf8.h"
 #include "server/http/head.h"
 #include "server/http/text.h"
 #include "tests/fuzz/mesh_checks.h"
@@ -8,7 +9,7 @@ namespace {
 using namespace lastflat;
 using namespace lastflat::http;
 
-Response nothing(const Request&) {
+Response nothing(const http::Request&) {
     return {};
 }
 

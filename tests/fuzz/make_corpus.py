@@ -114,6 +114,18 @@ def gltf_seeds():
     sparse = {"count": 1, "indices": {"bufferView": 1, "componentType": 5123}, "values": {"bufferView": 0}}
     seed("gltf", "sparse.glb", glb(gltf_document(square, uri=False, accessors=[
         {"componentType": 5126, "count": 4, "type": "VEC3", "sparse": sparse}]), square))
+    mesh = [{"weights": [0.5], "primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 2, "WEIGHTS_0": 3},
+                                               "indices": 1, "targets": [{"POSITION": 0}]}]}]
+    seed("gltf", "morph_and_skin.glb", glb(gltf_document(
+        square + bytes(16) + b"\xff\0\0\0" * 4, uri=False, meshes=mesh,
+        nodes=[{"mesh": 0, "skin": 0, "children": [1]}, {"scale": [2, 1, 1]}], skins=[{"joints": [1, 0]}],
+        bufferViews=[{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12},
+                     {"buffer": 0, "byteOffset": 60, "byteLength": 16}, {"buffer": 0, "byteOffset": 76, "byteLength": 16}],
+        accessors=[{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                   {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+                   {"bufferView": 2, "componentType": 5121, "count": 4, "type": "VEC4"},
+                   {"bufferView": 3, "componentType": 5121, "count": 4, "type": "VEC4", "normalized": True}]),
+        square + bytes(16) + b"\xff\0\0\0" * 4))
     seed("gltf", "draco.gltf", gltf_document(square, extensionsRequired=["KHR_draco_mesh_compression"]))
     seed("gltf", "other_file.gltf", gltf_document(b"", buffers=[{"byteLength": 60, "uri": "last.bin"}]))
     seed("gltf", "solid.stl", "solid a\nfacet normal 0 0 1\n")
@@ -200,10 +212,14 @@ def stl_and_ply_seeds():
     seed("stl", "two_solids", text + text.replace("dome", "second"))
     seed("stl", "binary", b"scan".ljust(80) + struct.pack("<I", len(corners)) + body)
     seed("stl", "binary_lies", b"solid".ljust(80) + struct.pack("<I", 0xFFFFFFFF) + body)
+    seed("stl", "trailing_bytes", b"scan".ljust(80) + struct.pack("<I", len(corners) - 1) + body + b"end")
+    seed("stl", "comments", "\r\n# scan\r\n" + text.replace("\n", "\r"))
     header = "ply\nformat %s 1.0\nelement vertex %d\nproperty float x\nproperty float y\nproperty double z\nelement face %d\n" \
         "property list uchar int vertex_indices\nend_header\n"
     seed("ply", "text", header % ("ascii", len(points), len(faces)) + "".join("%g %g %g\n" % tuple(p) for p in points) +
          "".join("%d %s\n" % (len(f), " ".join(map(str, f))) for f in faces))
+    seed("ply", "strips", (header % ("ascii", len(points), 1)).replace("element face", "element tristrips").replace("uchar", "int") +
+         "".join("%g %g %g\n" % tuple(p) for p in points) + "11 0 5 1 6 2 -1 5 10 6 11 7\n")
     for name, order in (("little", "<"), ("big", ">")):
         seed("ply", name, (header % (f"binary_{name}_endian", len(points), len(faces))).encode() +
              b"".join(struct.pack(order + "ffd", *p) for p in points) +

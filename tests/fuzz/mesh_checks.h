@@ -30,7 +30,7 @@ inline LoadLimits small_limits() {
 inline void check(const RawMesh& mesh) {
     const LoadLimits limits = small_limits();
     require(!mesh.triangles.empty() && mesh.triangles.size() <= limits.triangles);
-    require(mesh.positions.size() <= limits.vertices);
+    require(mesh.positions.size() <= (mesh.indexed ? limits.vertices : 3 * limits.triangles));
     require(mesh.triangle_labels.size() == mesh.triangles.size());
     for (const Vec3& position : mesh.positions) require(position.allFinite());
     for (const std::uint32_t label : mesh.triangle_labels) require(label < mesh.label_sets.size());

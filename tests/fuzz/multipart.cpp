@@ -1,6 +1,7 @@
 // The first line is the Content-Type, the rest the body.
 #include "server/http/multipart.h"
 
+#include "core/utf8.h"
 #include "server/http/refusal.h"
 #include "server/http/text.h"
 #include "tests/fuzz/mesh_checks.h"
@@ -16,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         fuzz::require(parts.size() <= most_parts);
         std::size_t bytes = 0;
         for (const auto& part : parts) {
-            fuzz::require(http::is_utf8(part.name) && !http::has_control_characters(part.name));
+            fuzz::require(is_utf8(part.name) && !http::has_control_characters(part.name));
             fuzz::require(body.find(part.bytes) != std::string_view::npos);
             bytes += part.bytes.size();
         }

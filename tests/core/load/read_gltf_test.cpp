@@ -1,10 +1,8 @@
 #include <doctest/doctest.h>
 
-#include <cstring>
-#include <nlohmann/json.hpp>
-
 #include "core/load/load_model.h"
 #include "tests/helpers/errors.h"
+#include "tests/helpers/gltf.h"
 
 namespace lastflat {
 namespace {
@@ -12,59 +10,11 @@ namespace {
 using test::has;
 using test::load_error;
 
+using test::base64;
+using test::raw;
+using test::triangle;
+
 using Json = nlohmann::json;
-
-std::string base64(const std::string& bytes) {
-    constexpr char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t bits = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            bits =
-                bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        }
-        for (std::size_t k = 0; k < 4; ++k) {
-            text += i + k > bytes.size() ? '=' : alphabet[bits >> (18 - 6 * k) & 63u];
-        }
-    }
-    return text;
-}
-
-template <class T>
-std::string raw(std::initializer_list<T> values) {
-    std::string bytes;
-    for (const T value : values) bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-    return bytes;
-}
-
-/// A triangle (0,0,0) (1,0,0) (0,2,0), indexed, in one node.
-Json triangle() {
-    const std::string bytes =
-        raw<float>({0, 0, 0, 1, 0, 0, 0, 2, 0}) + raw<std::uint16_t>({0, 1, 2});
-    return {{"asset", {{"version", "2.0"}}},
-            {"scene", 0},
-            {"scenes", {{{"nodes", {0}}}}},
-            {"nodes", {{{"name", "foot"}, {"mesh", 0}}}},
-            {"materials", {{{"name", "calf"}}}},
-            {"meshes",
-             {{{"name", "last"},
-               {"primitives",
-                {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"material", 0}}}}}}},
-            {"accessors",
-             {{{"bufferView", 0},
-               {"componentType", 5126},
-               {"count", 3},
-               {"type", "VEC3"},
-               {"min", {0, 0, 0}},
-               {"max", {1, 2, 0}}},
-              {{"bufferView", 1}, {"componentType", 5123}, {"count", 3}, {"type", "SCALAR"}}}},
-            {"bufferViews",
-             {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 36}},
-              {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 6}}}},
-            {"buffers",
-             {{{"byteLength", bytes.size()},
-               {"uri", "data:application/octet-stream;base64," + base64(bytes)}}}}};
-}
 
 }  // namespace
 
@@ -200,6 +150,17 @@ TEST_SUITE("core/load/read_gltf") {
         CHECK(load_model(model.dump()).positions[1] == Vec3(7, 8, 9));
         model["accessors"][0]["sparse"]["count"] = 4;
         CHECK(has(load_error(model.dump()), "accessor 0 replaces more elements than it has"));
+    }
+
+    TEST_CASE("vertices without indices are counted when they are welded") {
+        Json model = triangle();
+        LoadLimits limits;
+        limits.vertices = 2;
+        CHECK(has(load_error(model.dump(), limits), "model_too_large"));
+        model["meshes"][0]["primitives"][0].erase("indices");
+        CHECK(load_model(model.dump(), limits).positions.size() == 3);
+        limits.triangles = 0;
+        CHECK(has(load_error(model.dump(), limits), "model_too_large"));
     }
 
     TEST_CASE("a position that is not finite is refused") {

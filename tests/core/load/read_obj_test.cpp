@@ -25,6 +25,27 @@ TEST_SUITE("core/load/read_obj") {
         CHECK(mesh.indexed);
     }
 
+    TEST_CASE("lines may end with CR alone, and are counted") {
+        const RawMesh mesh =
+            load_model("# scan\rv 0 0 0\rv 1 0 0\rv 0 1 0\rg upper\rf 1 2 \\\r3\r");
+        CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}});
+        CHECK(mesh.label_sets[0] == std::vector<std::string>{"upper"});
+        CHECK(has(load_error("v 0 0 0\r\rv 0 0 x\r"), "line 3: 'x' is not a number"));
+        CHECK(has(load_error("v 0 0 0\r\n\r\nv 0 0 x\r\n"), "line 3: 'x' is not a number"));
+    }
+
+    TEST_CASE("names that are no UTF-8 are Latin-1") {
+        const RawMesh mesh = load_model(
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\ng au\xdf"
+            "en\no \xe9t\xe9\nusemtl cuir\nf 1 2 3\n"
+            "g au\xc3\x9f"
+            "en\nf 1 3 2\n");
+        REQUIRE(mesh.label_sets.size() == 1);
+        CHECK(mesh.label_sets[0] == std::vector<std::string>{"au\xc3\x9f"
+                                                             "en",
+                                                             "\xc3\xa9t\xc3\xa9", "cuir"});
+    }
+
     TEST_CASE("groups, objects and materials are the names of a face") {
         const RawMesh mesh = load_model(
             "v 0 0 0\nv 1 0 0\nv 0 1 0\no last one\ng upper left\nusemtl calf skin\nf 1 2 3\ng "

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "tests/helpers/errors.h"
@@ -61,6 +62,53 @@ TEST_SUITE("core/load/read_stl") {
         CHECK(has(load_error(binary(2, 2).substr(0, 84 + 70)), "unreadable_model"));
     }
 
+    TEST_CASE("what follows the triangles of the count is passed over with a warning") {
+        CHECK(load_model(binary(2, 2)).warnings.empty());
+        CHECK(load_model(binary(0, 2)).warnings.empty());
+        for (const std::size_t more : {1, 2, 49, 50, 134}) {
+            CAPTURE(more);
+            const RawMesh mesh = load_model(binary(2, 2) + std::string(more, '\x41'));
+            CHECK(mesh.triangles.size() == 2);
+            REQUIRE(mesh.warnings.size() == 1);
+            CHECK(mesh.warnings[0].code == "trailing_bytes");
+            CHECK(
+                has(mesh.warnings[0].detail, " " + std::to_string(more) + " bytes follow the 2 "));
+            CHECK(has(mesh.warnings[0].detail, "room for") == (more >= 50));
+        }
+    }
+
+    TEST_CASE("empty lines and comments may stand before and between solids") {
+        for (const std::string before :
+             {"\r\n", "\r\n\r\n", "# by hand\n# solid\n", " \t# x\r\n\r\n"}) {
+            CAPTURE(before);
+            const RawMesh mesh = load_model(before + text + before + text);
+            CHECK(mesh.triangles.size() == 2);
+            CHECK(mesh.label_sets.back() == std::vector<std::string>{"one"});
+        }
+    }
+
+    TEST_CASE("lines may end with CR alone, and are counted") {
+        std::string other = text;
+        std::replace(other.begin(), other.end(), '\n', '\r');
+        const RawMesh mesh = load_model("# by hand\r" + other);
+        CHECK(mesh.triangles.size() == 1);
+        CHECK(mesh.label_sets.back() == std::vector<std::string>{"one"});
+        other.replace(other.find("3 0\r"), 1, "x");
+        CHECK(has(load_error(other), "STL line 6: 'x' is not a number"));
+        for (auto at = other.find('\r'); at < other.size(); at = other.find('\r', at + 2))
+            other.insert(at + 1, 1, '\n');
+        CHECK(has(load_error(other), "STL line 6: 'x' is not a number"));
+    }
+
+    TEST_CASE("a name that is no UTF-8 is Latin-1") {
+        std::string other = text;
+        other.replace(6, 3,
+                      "au\xdf"
+                      "en");
+        CHECK(load_model(other).label_sets.back() == std::vector<std::string>{"au\xc3\x9f"
+                                                                              "en"});
+    }
+
     TEST_CASE("what is broken is named with its line or its triangle") {
         std::string broken = text;
         broken.replace(broken.find("3 0\n"), 1, "x");
@@ -79,6 +127,9 @@ TEST_SUITE("core/load/read_stl") {
         limits.triangles = 2;
         CHECK_THROWS_AS((void)load_model(binary(3, 3), limits), Error);
         CHECK_THROWS_AS((void)load_model(text + text + text, limits), Error);
+        limits = {};
+        limits.vertices = 3;  // those of one triangle; welding joins them
+        CHECK(load_model(binary(3, 3), limits).triangles.size() == 3);
     }
 }
 
