@@ -55,6 +55,13 @@ Index trace_stretch(const Unfolding& unfolding, const Arrival& arrival, Index ve
             "a shortest path to vertex " + std::to_string(vertex) + " cannot be traced back");
     };
     if (arrival.half_edge < 0) return arrival.root;
+    const std::size_t begin = points.size();
+    // Where the line crosses the vertex's own edges beside it, the way over the vertex has no turn.
+    const auto pass_over = [&](Index passed) {
+        while (points.size() > begin && (points.back().a == passed || points.back().b == passed))
+            points.pop_back();
+        return passed;
+    };
     // First across the arrival's own edge, seen from the triangle before it.
     const Vec2& apex = unfolding.apex_position(arrival.half_edge);
     const double length = unfolding.length(arrival.half_edge), depth = -arrival.position.y();
@@ -67,8 +74,8 @@ Index trace_stretch(const Unfolding& unfolding, const Arrival& arrival, Index ve
         if (line.half_edge < 0) lose_way();
         const Index from = unfolding.from(line.half_edge), to = unfolding.to(line.half_edge);
         const double share = line.x / unfolding.length(line.half_edge);
-        if (share < tolerance::geodesic_slack) return from;
-        if (share > 1.0 - tolerance::geodesic_slack) return to;
+        if (share < tolerance::geodesic_slack) return pass_over(from);
+        if (share > 1.0 - tolerance::geodesic_slack) return pass_over(to);
         points.push_back({from, to, share});
         if (ends_at_apex(unfolding, line, arrival.root)) return arrival.root;
         line = crossed(unfolding, line);
