@@ -352,6 +352,23 @@ TEST_SUITE("core/geodesic/exact_geodesics") {
         }
     }
 
+    TEST_CASE("paths run straight along the border of a hole") {
+        const auto place = [](int i, int k) { return Vec3(10.0 * i, 10.0 * k, 0); };
+        Triangulation surface = tube(9, 8, Diagonals::alike, place);
+        std::erase_if(surface.triangles, [&](const Triangle& t) {
+            const Index first = *std::min_element(t.begin(), t.end()), i = first % 9, k = first / 9;
+            const bool closes =
+                std::abs(t[0] % 9 - t[1] % 9) > 1 || std::abs(t[1] % 9 - t[2] % 9) > 1;
+            return closes || (i >= 3 && i < 5 && k >= 2 && k < 5);
+        });
+        // Vertices within the hole are used by none.
+        surface.positions.erase(surface.positions.begin() + 40);
+        surface.positions.erase(surface.positions.begin() + 31);
+        for (Triangle& t : surface.triangles)
+            for (Index& v : t) v -= (v > 31 ? 1 : 0) + (v > 40 ? 1 : 0);
+        CHECK(worst_disagreement(surface, ExactGeodesics(surface)) < 1e-12);
+    }
+
     TEST_CASE("what does not hang together with the source is infinitely far") {
         Triangulation surface = tube(5, 3, Diagonals::alike, [](int i, int k) {
             return Vec3(std::cos(2.0 * pi * i / 5), std::sin(2.0 * pi * i / 5), k);
