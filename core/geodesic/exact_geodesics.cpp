@@ -93,12 +93,15 @@ public:
         result_.distance[at(vertex)] = 0.0;
         result_.arrivals[at(vertex)].root = vertex;
         open(vertex);
-        propagate_all(progress);
+        do {
+            propagate_all(progress);
+        } while (follow_edges());
         return std::move(result_);
     }
 
 private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
+    static constexpr double less = 1.0 - tolerance::geodesic_round_off;  ///< times a distance
 
     static double median_length(const Unfolding& unfolding) {
         std::vector<double> lengths;
@@ -120,34 +123,44 @@ private:
                 open(window.root);
             }
         }
+    }
+
+    /// What light should have reached along an edge but has not, for whatever reason, is reached
+    /// along it. False: there is nothing.
+    bool follow_edges() {
+        bool any = false;
         for (Index v = 0; v < half_edges_.vertex_count(); ++v) {
-            if (half_edges_.outgoing(v) < 0 || std::isfinite(result_.distance[at(v)])) continue;
-            throw Error(ErrorCode::solver_failed,
-                        "round-off hides a vertex from every shortest path");
+            const auto follow = [&](Index from, double length) {
+                const double distance = result_.distance[at(from)] + length;
+                if (!(distance < result_.distance[at(v)] * less)) return;
+                reach(v, distance, {from, -1, {0, 0}});
+                any = true;
+            };
+            if (half_edges_.outgoing(v) < 0) continue;
+            for (const Index h : half_edges_.around(v)) {
+                follow(half_edges_.to(h), half_edges_.length(h));
+                follow(half_edges_.apex(h), half_edges_.length(HalfEdges::previous(h)));
+            }
         }
+        return any;
     }
 
     /// A path of length `distance` has reached the vertex.
     void reach(Index vertex, double distance, const GeodesicDistances::Arrival& arrival) {
         double& known = result_.distance[at(vertex)];
-        // What improves by round-off alone is no other path, and not worth opening a vertex again.
-        if (!(distance < known * (1.0 - tolerance::geodesic_round_off))) return;
-        known = distance;
+        if (!(distance < known * less)) {
+            // Of paths that round-off cannot tell apart the straighter one knows its direction.
+            const Index root = result_.arrivals[at(vertex)].root;
+            const bool straighter =
+                distance * less < known &&
+                result_.distance[at(arrival.root)] < result_.distance[at(root)] * less;
+            if (!straighter) return;
+        }
+        known = std::min(known, distance);
         result_.arrivals[at(vertex)] = arrival;
         if (total_angles_[at(vertex)] > 0.0) {
             buckets_.push({0.0, 0.0, {0, 0}, distance, Window::spawn, vertex}, distance);
         }
-    }
-
-    /// All light that leaves the triangle of h through h, from a root in the triangle at
-    /// `position`.
-    void shine(Index h, const Vec2& position, double offset, Index root) {
-        const Index other = half_edges_.twin(h);
-        if (other < 0) return;
-        const double length = half_edges_.length(h);
-        const Window window{0.0,    length, {length - position.x(), -position.y()},
-                            offset, other,  root};
-        buckets_.push(window, window.least_distance());
     }
 
     /// Lets paths go on from a vertex, in the directions in which they make no corner that a
@@ -163,22 +176,39 @@ private:
         for (const Index h : half_edges_.around(vertex)) {
             const double end = begin + half_edges_.angle(h);
             // Turned so that the path came from 0; around an inner vertex modulo the total angle.
-            const auto sees = [&](double low, double high) {
-                return begin - came <= high + margin && end - came >= low - margin;
+            const auto light = [&](double low, double high) {
+                low = std::max(low - margin, begin - came);
+                high = std::min(high + margin, end - came);
+                if (low <= high) open_triangle(h, offset, low + came - begin, high + came - begin);
             };
-            const bool lit = whole || (border ? sees(pi, infinity) || sees(-infinity, -pi)
-                                              : sees(pi, total - pi) || sees(pi - total, -pi));
-            if (lit) open_triangle(h, offset);
+            if (whole) {
+                light(-infinity, infinity);
+            } else {
+                light(pi, border ? infinity : total - pi);
+                light(border ? -infinity : pi - total, -pi);
+            }
             begin = end;
         }
     }
 
-    void open_triangle(Index h, double offset) {
+    /// Light from where h begins, between two angles from h on.
+    void open_triangle(Index h, double offset, double low, double high) {
         const Index vertex = half_edges_.from(h), opposite = HalfEdges::next(h);
         reach(half_edges_.to(h), offset + half_edges_.length(h), {vertex, -1, {0, 0}});
         reach(half_edges_.apex(h), offset + half_edges_.length(HalfEdges::previous(h)),
               {vertex, -1, {0, 0}});
-        shine(opposite, half_edges_.apex_position(opposite), offset, vertex);
+        const Index other = half_edges_.twin(opposite);
+        if (other < 0) return;
+        const Vec2& root = half_edges_.apex_position(opposite);
+        const double length = half_edges_.length(opposite), first = std::atan2(root.x(), root.y());
+        const auto crossing = [&](double angle) {
+            return std::clamp(root.x() + root.y() * std::tan(angle - first), 0.0, length);
+        };
+        const double begin = low > 0.0 ? crossing(low) : 0.0;
+        const double end = high < half_edges_.angle(h) ? crossing(high) : length;
+        const Window window{length - end, length - begin, {length - root.x(), -root.y()},
+                            offset,       other,          vertex};
+        buckets_.push(window, window.least_distance());
     }
 
     /// The angle at the vertex, counted from its first half-edge, towards where its path came from.
@@ -200,18 +230,31 @@ private:
     }
 
     /// Light falls through a triangle: on its third corner and out through both other edges.
+    ///
+    /// What the rays at the window's ends miss by round-off alone they meet. So that no direction
+    /// is lost between two windows that share such a ray, less is taken for met where light ends
+    /// than where its neighbour is widened to the corner instead.
     void propagate(const Window& w) {
-        const Index h = w.half_edge, left = HalfEdges::previous(h), right = HalfEdges::next(h);
+        const Index h = w.half_edge, left = HalfEdges::previous(h);
         const Vec2& apex = half_edges_.apex_position(h);
         const double length = half_edges_.length(h), depth = -w.position.y();
-        const double slack = tolerance::geodesic_slack * length;
-        // Where the line from the root to the apex passes the edge.
-        const double split =
-            w.position.x() + (apex.x() - w.position.x()) * depth / (apex.y() + depth);
-        bool go_left = split > w.begin + slack, go_right = split < w.end - slack;
-        if (split >= w.begin - slack && split <= w.end + slack) {
-            const double distance = w.offset + (apex - w.position).norm();
+        const Vec2 ray = apex - w.position;
+        const Vec2 first(w.begin - w.position.x(), depth), last(w.end - w.position.x(), depth);
+        const double beyond_first = cross(ray, first), beyond_last = cross(last, ray);
+        const double scale = length + half_edges_.length(left), reached = taxicab(ray);
+        const auto round_off = [&](const Vec2& side) {
+            const double far = taxicab(side);
+            return tolerance::geodesic_ray * (reached * far + scale * (reached + far));
+        };
+        const double off_first = round_off(first), off_last = round_off(last);
+        bool go_left = beyond_first > off_first, go_right = beyond_last > off_last;
+        const bool from_apex = beyond_first >= -2.0 * off_first;
+        const bool to_apex = beyond_last >= -2.0 * off_last;
+        if (from_apex && to_apex) {
+            const double distance = w.offset + ray.norm();
             reach(half_edges_.from(left), distance, {w.root, h, w.position});
+            const double slack = tolerance::geodesic_slack * length;
+            const double split = w.position.x() + ray.x() * depth / ray.y();
             Split& best = splits_[at(h)];
             if (distance < best.distance) {
                 best = {distance, split};
@@ -220,35 +263,43 @@ private:
                 if (split > best.x + slack) go_left = false;
             }
         }
-        const double apex_length = half_edges_.length(left);  // from the origin to the apex
-        if (go_left) {
-            const Vec2 along = apex / apex_length;
-            const Vec2 position(along.dot(w.position), cross(along, w.position));
-            const auto crossing = [&](double x) {
-                return apex_length * x * depth /
-                       (depth * apex.x() + apex.y() * (w.position.x() - x));
-            };
-            const double begin = crossing(w.begin);
-            const double end = split <= w.end ? apex_length : crossing(w.end);
-            pass(w, half_edges_.twin(left), begin, end, position, half_edges_.to(h),
-                 (begin * along - Vec2(length, 0.0)).norm(), true);
-        }
-        if (go_right) {
-            const double side = half_edges_.length(right);
-            const Vec2 along = (Vec2(length, 0.0) - apex) / side, from_apex = w.position - apex;
-            const Vec2 position(along.dot(from_apex), cross(along, from_apex));
-            // Seen from the edge's end, the mirror image of the left side.
-            const Vec2 mirrored(length - apex.x(), apex.y());
-            const auto crossing = [&](double x) {
-                const double y = length - x, root = length - w.position.x();
-                return side - side * y * depth / (depth * mirrored.x() + mirrored.y() * (root - y));
-            };
-            const double begin = split >= w.begin ? 0.0 : crossing(w.begin);
-            const double end = crossing(w.end);
-            pass(w, half_edges_.twin(right), begin, end, position, half_edges_.from(h),
-                 (apex + end * along).norm(), false);
-        }
+        if (go_left) pass_left(w, beyond_first, to_apex ? 0.0 : -beyond_last);
+        if (go_right) pass_right(w, from_apex ? 0.0 : -beyond_first, beyond_last);
     }
+
+    /// Out through the edge that ends where h begins; `at_begin`, `at_end`: how far the rays of the
+    /// window's ends pass the third corner (their cross product), 0 where it is the corner itself.
+    void pass_left(const Window& w, double at_begin, double at_end) {
+        const Index h = w.half_edge, left = HalfEdges::previous(h);
+        const double side = half_edges_.length(left), depth = -w.position.y();
+        const Vec2 along = half_edges_.apex_position(h) / side;
+        const double begin = side * share_crossed(w.begin * depth, at_begin);
+        const double end = side * share_crossed(w.end * depth, at_end);
+        const Vec2 position(along.dot(w.position), cross(along, w.position));
+        const double to_far = (begin * along - Vec2(half_edges_.length(h), 0.0)).norm();
+        pass(w, half_edges_.twin(left), begin, end, position, half_edges_.to(h), to_far, true);
+    }
+
+    /// The mirror image, seen from the end of h.
+    void pass_right(const Window& w, double at_begin, double at_end) {
+        const Index h = w.half_edge, right = HalfEdges::next(h);
+        const double length = half_edges_.length(h), side = half_edges_.length(right);
+        const double depth = -w.position.y();
+        const Vec2& apex = half_edges_.apex_position(h);
+        const Vec2 along = (Vec2(length, 0.0) - apex) / side, from_apex = w.position - apex;
+        const double begin = side - side * share_crossed((length - w.begin) * depth, at_begin);
+        const double end = side - side * share_crossed((length - w.end) * depth, at_end);
+        const Vec2 position(along.dot(from_apex), cross(along, from_apex));
+        pass(w, half_edges_.twin(right), begin, end, position, half_edges_.from(h),
+             (apex + end * along).norm(), false);
+    }
+
+    /// Where a ray crosses a side, from the corner that it shares with h on, given twice the areas
+    /// on either side of the ray.
+    static double share_crossed(double before, double beyond) {
+        return beyond > 0.0 ? before / (before + beyond) : 1.0;
+    }
+    static double taxicab(const Vec2& v) { return std::abs(v.x()) + std::abs(v.y()); }
 
     /// Queues the part of a window that leaves through an edge, unless a path over a vertex is
     /// known to be shorter for all of it: over either end of the edge, or over the corner behind,
@@ -257,10 +308,8 @@ private:
               Index behind, double behind_to_far, bool far_is_begin) {
         if (h < 0) return;
         const double length = half_edges_.length(h);
-        begin = std::max(begin, 0.0);
-        end = std::min(end, length);
+        end = std::max(begin, end);
         const double slack = tolerance::geodesic_slack * length;
-        if (!(end - begin > slack)) return;
         const Window window{begin,         end, {position.x(), std::min(position.y(), 0.0)},
                             parent.offset, h,   parent.root};
         const double at_begin = window.distance_at(begin), at_end = window.distance_at(end);

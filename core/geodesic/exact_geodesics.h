@@ -28,10 +28,13 @@ struct GeodesicDistances {
 ///
 /// Paper:  [chen-1990] (windows, one angle one split), [xin-2009] (filtering against the vertices'
 ///         distances), order of work by buckets as in [xu-2015]. Unlike them: a shortest path may
-///         also bend around border vertices, and windows that a bend opens are kept to the
+///         also bend around border vertices, and windows that a bend opens are clipped to the
 ///         directions in which a shortest path can go on.
-/// Guarantees: round-off apart, the length of the shortest path on the triangles. Time and memory
-///         depend on the number of windows, about n^1.5 on a smooth surface of n triangles.
+///         Windows whose ends coincide but for round-off are joined at the vertex between them, so
+///         that symmetric shapes, flat parts and rows of vertices in line leave no gaps.
+/// Guarantees: round-off apart, the length of the shortest path on the triangles; in any case no
+///         more than along the edges. Time and memory depend on the number of windows, about n^1.5
+///         on a smooth surface of n triangles.
 class ExactGeodesics {
 public:
     /// `windows_per_half_edge`: how many a run may make on average; smooth surfaces of a million
@@ -39,8 +42,8 @@ public:
     explicit ExactGeodesics(const Triangulation& surface, std::size_t windows_per_half_edge = 500);
     explicit ExactGeodesics(Unfolding unfolding, std::size_t windows_per_half_edge = 500);
 
-    /// Throws: Error{canceled}; Error{solver_failed} if a run would make too many windows, or
-    /// if round-off in a row of nearly flat vertices hides one from all of them.
+    /// Out:    infinite distances on pieces that do not hang together with the vertex.
+    /// Throws: Error{canceled}; Error{solver_failed} if a run would make too many windows.
     [[nodiscard]] GeodesicDistances from_vertex(Index vertex, const Progress& progress) const;
 
     [[nodiscard]] const Unfolding& unfolding() const { return unfolding_; }

@@ -11,25 +11,25 @@ namespace {
 
 using Arrival = GeodesicDistances::Arrival;
 
-/// A straight line that crosses half-edge h at x, on its way back to its root, which lies at
-/// `root` in the frame of h, above the edge or beyond.
+/// A straight line on its way back to its root, where it leaves a triangle through the half-edge
+/// `exit`: at x in the frame of the neighbour's half-edge there, in which `root` lies above the
+/// edge or beyond.
 struct Line {
-    Index half_edge;
+    Index exit;
     double x;
     Vec2 root;
 };
 
 /// Whether the line's root is the third corner of the triangle it has just entered.
 bool ends_at_apex(const Unfolding& unfolding, const Line& line, Index root) {
-    return unfolding.apex(line.half_edge) == root &&
-           (unfolding.apex_position(line.half_edge) - line.root).norm() <
-               tolerance::geodesic_corner * unfolding.length(line.half_edge);
+    const Index h = unfolding.twin(line.exit);
+    return unfolding.apex(h) == root && (unfolding.apex_position(h) - line.root).norm() <
+                                            tolerance::geodesic_corner * unfolding.length(h);
 }
 
-/// The edge through which the line leaves the triangle that it entered, seen from the next one.
-/// The half-edge is -1 if there is no next one.
+/// Where the line leaves the triangle that it entered.
 Line crossed(const Unfolding& unfolding, const Line& line) {
-    const Index h = line.half_edge;
+    const Index h = unfolding.twin(line.exit);
     const Vec2& apex = unfolding.apex_position(h);
     const Vec2 entry(line.x, 0.0), direction = line.root - entry;
     const bool left = cross(apex - entry, direction) > 0.0;
@@ -39,7 +39,7 @@ Line crossed(const Unfolding& unfolding, const Line& line) {
     const Vec2 along = (end - origin) / unfolding.length(exit);
     const double sine = cross(direction, along);
     const double x = sine != 0.0 ? cross(direction, entry - origin) / sine : 0.0;
-    return {unfolding.twin(exit),
+    return {exit,
             std::clamp(x, 0.0, unfolding.length(exit)),
             {along.dot(line.root - origin), cross(along, line.root - origin)}};
 }
@@ -55,20 +55,27 @@ Index trace_stretch(const Unfolding& unfolding, const Arrival& arrival, Index ve
             "a shortest path to vertex " + std::to_string(vertex) + " cannot be traced back");
     };
     if (arrival.half_edge < 0) return arrival.root;
+    const std::size_t begin = points.size();
+    // Where the line crosses the vertex's own edges beside it, the way over the vertex has no turn.
+    const auto pass_over = [&](Index passed) {
+        while (points.size() > begin && (points.back().a == passed || points.back().b == passed))
+            points.pop_back();
+        return passed;
+    };
     // First across the arrival's own edge, seen from the triangle before it.
     const Vec2& apex = unfolding.apex_position(arrival.half_edge);
     const double length = unfolding.length(arrival.half_edge), depth = -arrival.position.y();
     const double x =
         arrival.position.x() + (apex.x() - arrival.position.x()) * depth / (apex.y() + depth);
-    Line line{unfolding.twin(arrival.half_edge),
+    Line line{arrival.half_edge,
               std::clamp(length - x, 0.0, length),
               {length - arrival.position.x(), depth}};
     for (Index step = 0; step < unfolding.count(); ++step) {
-        if (line.half_edge < 0) lose_way();
-        const Index from = unfolding.from(line.half_edge), to = unfolding.to(line.half_edge);
-        const double share = line.x / unfolding.length(line.half_edge);
-        if (share < tolerance::geodesic_slack) return from;
-        if (share > 1.0 - tolerance::geodesic_slack) return to;
+        const Index from = unfolding.to(line.exit), to = unfolding.from(line.exit);
+        const double share = line.x / unfolding.length(line.exit);
+        if (share < tolerance::geodesic_slack) return pass_over(from);
+        if (share > 1.0 - tolerance::geodesic_slack) return pass_over(to);
+        if (unfolding.twin(line.exit) < 0) lose_way();
         points.push_back({from, to, share});
         if (ends_at_apex(unfolding, line, arrival.root)) return arrival.root;
         line = crossed(unfolding, line);

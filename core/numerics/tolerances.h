@@ -120,11 +120,17 @@ inline constexpr double noticed_strain_percent = 1e-6;
 /// Geodesics: differences below this share are round-off.
 inline constexpr double geodesic_round_off = 1e-12;
 
-/// Light through an edge: what misses an end by less than this share of the edge still reaches it,
-/// so that no ray is lost between two windows; the length of its path is off by the square of it.
+/// A ray that misses a corner by less than this share of its length and the triangle's size meets
+/// it: what unfolding thousands of triangles in a row adds up to. The length of a path around the
+/// corner is off by the square of it.
+inline constexpr double geodesic_ray = 1e-11;
+/// Paths that cross an edge nearer to its end than this share of it go over the end, windows that
+/// a corner splits nearer to each other are not compared, and what is to be passed over must be
+/// longer by so much of the edge.
 inline constexpr double geodesic_slack = 1e-8;
-/// Radians: light beside a corner from this far on; a little more of it does no harm.
-inline constexpr double geodesic_margin = 1e-9;
+/// Radians: paths go on straight over a vertex to this much; less than `geodesic_ray`, so that what
+/// shines past the next vertex in line ends there.
+inline constexpr double geodesic_margin = 1e-12;
 /// A root nearer to a corner than this share of the triangle is that corner: others are further.
 inline constexpr double geodesic_corner = 1e-6;
 
