@@ -49,8 +49,7 @@ ReadModel read_model(std::string_view model, const FlattenOptions& options, Prog
     const RawMesh raw = load_model(model, options.limits);
     ReadModel read{raw.positions.size(), raw.triangles.size(), count_groups(raw), {}, watch.lap()};
     progress.reach(Stage::weld, 0.1);
-    read.surface =
-        weld(raw, options.request.weld, options.request.cut.holes, options.limits);
+    read.surface = weld(raw, options.request.weld, options.request.cut.holes, options.limits);
     close_openings(read.surface, options.request);
     return read;
 }

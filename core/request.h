@@ -38,9 +38,9 @@ struct LoadLimits {
 enum class Coincident { join, keep };
 
 struct WeldOptions {
-    std::optional<double> unit_mm;    ///< one unit of the model in mm; default: the format's
-    /// How long the last is, along the longest side of its box. Says the unit where nobody does, and
-    /// must agree with one that is given.
+    std::optional<double> unit_mm;  ///< one unit of the model in mm; default: the format's
+    /// How long the last is, along the longest side of its box. Says the unit where nobody does,
+    /// and must agree with one that is given.
     std::optional<double> last_length_mm{};
     std::vector<std::string> groups;  ///< faces that carry one of these names; empty: all faces
     /// Vertices in one and the same position become one, or not. Default: where the format has to

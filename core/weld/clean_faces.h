@@ -45,7 +45,8 @@ void clean_faces(Faces& faces, std::vector<Repair>& repairs);
 /// A surface that has no two sides stays as it is.
 void wind_alike(Faces& faces, std::vector<Repair>& repairs);
 
-/// Drops pieces that neither share a vertex with the rest nor come near to its border with their own
+/// Drops pieces that neither share a vertex with the rest nor come near to its border with their
+/// own
 /// (`tolerance::near_border`) and have less than `tolerance::stray_area` of the largest one's area.
 void drop_strays(Faces& faces, std::vector<Repair>& repairs);
 

@@ -19,7 +19,6 @@ namespace lastflat {
 /// Throws: Error{group_not_found, mesh_not_manifold, mesh_not_oriented (it has no two sides),
 ///         mesh_degenerate, model_too_large}, with the position in mm.
 [[nodiscard]] SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options = {},
-                               HoleRule holes = HoleRule::automatic,
-                               const LoadLimits& limits = {});
+                               HoleRule holes = HoleRule::automatic, const LoadLimits& limits = {});
 
 }  // namespace lastflat

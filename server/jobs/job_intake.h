@@ -48,7 +48,8 @@ struct IntakeLimits {
     bool webhooks = false;          ///< whether a job may have one
 };
 
-/// Throws: api::Refusal (507) if the disk has less room than the operator wants to keep; StoreError.
+/// Throws: api::Refusal (507) if the disk has less room than the operator wants to keep;
+/// StoreError.
 void check_room(const BlobStore& blobs, std::size_t min_free_mb);
 
 /// Throws: api::Refusal (403) unless the service sends webhooks.

@@ -35,7 +35,7 @@ struct Admitted {
 };
 
 struct QueueLimits {
-    std::size_t queued = 256;           ///< jobs waiting
+    std::size_t queued = 256;          ///< jobs waiting
     std::size_t queued_of_owner = 64;  ///< of one key
 };
 

@@ -21,7 +21,8 @@ public:
     /// `keys` must outlive it.
     Access(KeyStore& keys, AccessRules rules) : keys_(keys), rules_(std::move(rules)) {}
 
-    /// Sets the principal and the headers of the answer. Throws: api::Refusal (401, 429), StoreError.
+    /// Sets the principal and the headers of the answer. Throws: api::Refusal (401, 429),
+    /// StoreError.
     void admit(http::Request& request);
     /// What lets a web page of this origin read the answer: nothing unless it is on the list.
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> origin_headers(

@@ -83,8 +83,8 @@ double worst_disagreement(const Triangulation& surface, const ExactGeodesics& ge
     for (Index source = 0; source < n; source += std::max(1, n / 12)) {
         all.push_back(geodesics.from_vertex(source, Progress()));
         for (const auto& other : all) {
-            const double there = at(all.back(), other.source), back = at(other, source);
-            if (&other != &all.back()) worst = std::max(worst, std::abs(there - back) / back);
+            const double there = at(all.back(), other.source), here = at(other, source);
+            if (&other != &all.back()) worst = std::max(worst, std::abs(there - here) / here);
         }
         for (Index v = 0; v < n; ++v) {
             const double d = at(all.back(), v),
