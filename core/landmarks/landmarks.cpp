@@ -240,8 +240,8 @@ void check_shares(const std::vector<BareFace>& faces, const SoleAndTop& parts) {
 
 /// What is found if the last stands as the frame says.
 Landmarks found_with(const SurfaceMesh& surface, const std::vector<BareFace>& faces,
-                     const LastFrame& frame) {
-    const SoleAndTop parts = sole_and_top(surface, faces, frame);
+                     const LastFrame& frame, TopChoice top) {
+    const SoleAndTop parts = sole_and_top(surface, faces, frame, top);
     std::vector<bool> upper(faces.size());
     for (std::size_t f = 0; f < faces.size(); ++f) upper[f] = !parts.sole[f] && !parts.top[f];
     const auto featherline = line_around(surface, parts.sole, curve_name::featherline);
@@ -282,12 +282,16 @@ Landmarks find_landmarks(const SurfaceMesh& surface) {
     const auto sureness = [](const Landmarks& found) {
         return found.featherline_confidence + found.topline_confidence;
     };
-    for (const LastFrame& frame : last_frames(faces)) {
-        try {
-            Landmarks found = found_with(surface, faces, frame);
-            if (!best || sureness(found) > sureness(*best)) best = std::move(found);
-        } catch (const Error& error) {
-            if (!why) why = error;
+    const auto frames = last_frames(faces);
+    for (const TopChoice top : {TopChoice::flattest, TopChoice::highest}) {
+        if (best && best->topline_confidence >= mostly_sharp) break;
+        for (const LastFrame& frame : frames) {
+            try {
+                Landmarks found = found_with(surface, faces, frame, top);
+                if (!best || sureness(found) > sureness(*best)) best = std::move(found);
+            } catch (const Error& error) {
+                if (!why) why = error;
+            }
         }
     }
     if (!best) throw why.value();

@@ -125,13 +125,34 @@ std::optional<std::size_t> middle_of(const std::vector<BareFace>& faces,
     return best;
 }
 
+/// Of a set the faces that are as high as its highest tenth, by area.
+std::vector<bool> highest_of(const std::vector<BareFace>& faces, const std::vector<bool>& set,
+                             const std::vector<double>& height) {
+    std::vector<std::size_t> order;
+    double all = 0.0;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        if (!set[f]) continue;
+        order.push_back(f);
+        all += faces[f].area;
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return height[a] > height[b]; });
+    std::vector<bool> highest(faces.size(), false);
+    double area = 0.0;
+    for (std::size_t i = 0; i < order.size() && area < 0.1 * all; ++i) {
+        highest[order[i]] = true;
+        area += faces[order[i]].area;
+    }
+    return highest;
+}
+
 constexpr double flat = 0.75, upright = 0.25, slanted = 0.5;  // of the normal along the vertical
 constexpr double forefoot = 0.6, cone = 0.6;  // of length and height: the top is behind and above
 
 }  // namespace
 
 SoleAndTop sole_and_top(const SurfaceMesh& surface, const std::vector<BareFace>& faces,
-                        const LastFrame& frame) {
+                        const LastFrame& frame, TopChoice choice) {
     const auto graph = graph_of(surface, faces);
     const auto along = shares_along(faces, frame.forward), height = shares_along(faces, frame.up);
     const std::size_t n = faces.size();
@@ -145,7 +166,8 @@ SoleAndTop sole_and_top(const SurfaceMesh& surface, const std::vector<BareFace>&
     down = large_pieces(surface, faces, down);
     sides = large_pieces(surface, faces, sides);
     const auto middle_of_sole = middle_of(faces, down);
-    const auto middle_of_top = middle_of(faces, up);
+    const auto middle_of_top =
+        middle_of(faces, choice == TopChoice::flattest ? up : highest_of(faces, up, height));
     if (!middle_of_sole) fail_search("it has no flat sole");
     if (!middle_of_top) fail_search("it has no flat top over the heel");
     std::vector<Side2> nodes(n, Side2::free);

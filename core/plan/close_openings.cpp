@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "core/landmarks/landmarks.h"
 #include "core/numerics/least_area.h"
@@ -76,18 +77,14 @@ double furthest_from(const Points3& line, const Points3& rim) {
 }
 
 /// The line of the last that a rim is.
-std::string line_at(const SurfaceMesh& surface, const Landmarks& found, const Points3& rim) {
+std::optional<std::string> line_at(const SurfaceMesh& surface, const Landmarks& found,
+                                   const Points3& rim) {
     const double length = (found.toe_point - found.heel_point).norm();
     for (const CurveSource& curve : found.curves) {
         if (curve.name != curve_name::topline && curve.name != curve_name::featherline) continue;
         if (furthest_from(points_of(surface, curve), rim) < rim_reach * length) return curve.name;
     }
-    throw Error(ErrorCode::region_invalid,
-                "the surface is open by " + position_text(rim.front()) +
-                    ", which is neither the topline nor the featherline of the last; close the "
-                    "model there, or name the curves, cuts and regions")
-        .at_option({"curves"})
-        .at_position(rim.front());
+    return std::nullopt;
 }
 
 bool asks_nothing(const Request& request) {
@@ -117,12 +114,13 @@ void close_openings(SurfaceMesh& surface, const Request& request) {
     Repair repair{"openings_closed", "", rims.size()};
     for (const auto& rim : rims) {
         const Points3 points = positions_of(surface, rim);
+        const auto line = line_at(closed, found, points);
+        if (!line) return;
         double length = 0.0;
         for (std::size_t i = 0; i < points.size(); ++i)
             length += (points[(i + 1) % points.size()] - points[i]).norm();
         repair.detail += (repair.detail.empty() ? "the rim of " : "; the rim of ") +
-                         fixed_text(length, 1) + " mm was taken as the " +
-                         line_at(closed, found, points);
+                         fixed_text(length, 1) + " mm was taken as the " + *line;
         repair.positions.push_back(points.front());
         repair.lengths_mm.push_back(length);
     }

@@ -7,11 +7,10 @@
 namespace lastflat {
 
 /// Closes the openings of an open surface for which the request names no cuts, curves, regions or
-/// groups, if it is a last then: the rims are its topline or featherline, and what is put in takes
-/// no part in the pattern. Any other surface stays as it is.
+/// groups, if it is a last then whose topline or featherline every rim is: what is put in takes no
+/// part in the pattern. Any other surface stays as it is.
 ///
 /// Out:    the repair `openings_closed` says what each rim was taken for.
-/// Throws: Error{region_invalid} with the position, if it is a last, but an opening is elsewhere.
 void close_openings(SurfaceMesh& surface, const Request& request);
 
 }  // namespace lastflat

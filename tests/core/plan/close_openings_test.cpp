@@ -1,0 +1,85 @@
+#include "core/plan/close_openings.h"
+
+#include <doctest/doctest.h>
+
+#include "core/export/write_model.h"
+#include "core/flatten.h"
+#include "core/sample/sample_last.h"
+#include "core/weld/weld.h"
+
+namespace lastflat {
+namespace {
+
+/// The sample last without the faces of one group, and without names.
+RawMesh without(const std::string& group) {
+    RawMesh mesh = make_sample_last().mesh;
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& names = mesh.label_sets[mesh.triangle_labels[t]];
+        if (std::find(names.begin(), names.end(), group) != names.end()) continue;
+        mesh.triangles[kept++] = mesh.triangles[t];
+    }
+    mesh.triangles.resize(kept);
+    mesh.label_sets = {{}};
+    mesh.triangle_labels.assign(kept, 0);
+    return mesh;
+}
+
+double length_of(const FlattenResult& result, const std::string& curve) {
+    for (const CurveReport& report : result.regions.at(0).curves) {
+        if (report.name == curve) return report.length_3d_mm;
+    }
+    return 0.0;
+}
+
+bool is_open(const SurfaceMesh& surface) {
+    for (const auto edge : surface.mesh.edges()) {
+        if (surface.mesh.is_boundary(edge)) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+TEST_SUITE("core/plan/close_openings") {
+    TEST_CASE("a last without its top or its sole gives the halves of the whole one") {
+        RawMesh whole = without("");
+        Progress progress;
+        const FlattenResult expected = flatten(write_model_obj(whole), {}, progress);
+        for (const char* missing : {"top", "sole"}) {
+            CAPTURE(missing);
+            const FlattenResult result = flatten(write_model_obj(without(missing)), {}, progress);
+            REQUIRE(result.regions.size() == 2);
+            for (const char* curve : {"centre_front", "heel", "topline", "featherline"})
+                CHECK(length_of(result, curve) ==
+                      doctest::Approx(length_of(expected, curve)).epsilon(1e-3));
+            REQUIRE(result.repairs.size() == 1);
+            CHECK(result.repairs[0].code == "openings_closed");
+            CHECK(result.repairs[0].detail.find(std::string(missing) == "top"
+                                                    ? "topline"
+                                                    : "featherline") != std::string::npos);
+        }
+    }
+
+    TEST_CASE("an opening elsewhere stays, and so does one of a request that says how to cut") {
+        RawMesh toeless = without("");
+        std::size_t kept = 0;
+        for (const Triangle& t : toeless.triangles) {
+            if (toeless.positions[at(t[0])].x() < 220.0) toeless.triangles[kept++] = t;
+        }
+        toeless.triangles.resize(kept);
+        toeless.triangle_labels.resize(kept);
+        SurfaceMesh surface = weld(toeless);
+        close_openings(surface, {});
+        CHECK(is_open(surface));
+        SurfaceMesh topless = weld(without("top"));
+        Request asked;
+        asked.cut.cuts = {"centre_front"};
+        close_openings(topless, asked);
+        CHECK(is_open(topless));
+        close_openings(topless, {});
+        CHECK_FALSE(is_open(topless));
+    }
+}
+
+}  // namespace lastflat
