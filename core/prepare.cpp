@@ -6,7 +6,7 @@
 #include "core/constrain/check_constraints.h"
 #include "core/constrain/constraint_rows.h"
 #include "core/load/load_model.h"
-#include "core/plan/close_openings.h"
+#include "core/plan/close_opening.h"
 #include "core/stopwatch.h"
 #include "core/weld/weld.h"
 
@@ -50,7 +50,7 @@ ReadModel read_model(std::string_view model, const FlattenOptions& options, Prog
     ReadModel read{raw.positions.size(), raw.triangles.size(), count_groups(raw), {}, watch.lap()};
     progress.reach(Stage::weld, 0.1);
     read.surface = weld(raw, options.request.weld, options.request.cut.holes, options.limits);
-    close_openings(read.surface, options.request);
+    close_opening(read.surface, options.request);
     return read;
 }
 

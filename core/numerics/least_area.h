@@ -7,7 +7,7 @@
 
 namespace lastflat {
 
-/// The triangulation of least area over the polygon's own corners (Barequet and Sharir 1995), which
+/// The triangulation of least area over the polygon's own corners [barequet-1995], which
 /// avoids triangles without height. Takes the cube of the corners in time, the square in memory.
 ///
 /// In:     at least three corners; `is_taken` says between which corners i < j no new edge may run.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "core/numerics/disjoint_sets.h"
 #include "core/numerics/geometry.h"
@@ -26,13 +27,49 @@ void drop_collapsed(Faces& faces, RepairNote& note) {
     });
 }
 
+/// The triangles that have the same three vertices.
+struct Repeated {
+    std::size_t forward = 0, backward = 0;  ///< by their winding
+    bool cancels = false;                   ///< all of them go
+    bool met = false;
+};
+
+Triangle sorted(Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t;
+}
+
+/// As many wind one way as the other, and without them no edge is left with an odd number of sides:
+/// a wall without thickness, that bounds nothing.
+bool bounds_nothing(const Triangle& t, const Repeated& repeated,
+                    const std::map<std::pair<Index, Index>, std::size_t>& sides) {
+    bool even = repeated.forward == repeated.backward;
+    for (const auto& edge : {std::pair(t[0], t[1]), std::pair(t[1], t[2]), std::pair(t[0], t[2])})
+        even = even && sides.at(edge) % 2 == 0;
+    return even;
+}
+
+/// Walls go, of others one stays. Where most faces are there twice the model is a sheet with two
+/// sides.
 void drop_repeated(Faces& faces, RepairNote& note) {
-    std::set<Triangle> known;
-    faces.keep_if([&](Triangle t) {
-        const Vec3& position = faces.position(t[0]);
-        std::sort(t.begin(), t.end());
-        if (known.insert(t).second) return true;
-        note.at(position);
+    std::map<Triangle, Repeated> all;
+    for (const Triangle& t : faces.triangles) {
+        const auto least =
+            static_cast<std::size_t>(std::min_element(t.begin(), t.end()) - t.begin());
+        Repeated& repeated = all[sorted(t)];
+        ++(t[(least + 1) % 3] < t[(least + 2) % 3] ? repeated.forward : repeated.backward);
+    }
+    if (all.size() == faces.triangles.size()) return;
+    const bool is_sheet = 4 * all.size() < 3 * faces.triangles.size();
+    std::map<std::pair<Index, Index>, std::size_t> sides;
+    for (const Side& side : sides_by_edge(faces.triangles)) ++sides[{side.low, side.high}];
+    for (auto& [t, repeated] : all) {
+        repeated.cancels = !is_sheet && repeated.backward > 0 && bounds_nothing(t, repeated, sides);
+    }
+    faces.keep_if([&](const Triangle& t) {
+        Repeated& repeated = all.at(sorted(t));
+        if (!repeated.cancels && !std::exchange(repeated.met, true)) return true;
+        note.at(faces.position(t[0]));
         return false;
     });
 }
@@ -170,7 +207,7 @@ void clean_faces(Faces& faces, std::vector<Repair>& repairs) {
     RepairNote collapsed, repeated, flat;
     drop_collapsed(faces, collapsed);
     drop_repeated(faces, repeated);
-    constexpr int most_rounds = 8;  // a cap's neighbour may become a cap
+    constexpr int most_rounds = 64;  // a cap's neighbour may become a cap
     for (int round = 0; round < most_rounds; ++round) {
         RepairNote silent;
         const bool joined = join_short_edges(faces, flat);

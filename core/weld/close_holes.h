@@ -7,7 +7,7 @@ namespace lastflat {
 
 /// Closes every border loop of a surface that has none further across than
 /// `tolerance::small_hole_mm`, by the triangulation of least area over the loop's own vertices
-/// (Barequet and Sharir 1995). A surface with a larger opening stays as it is: there a small hole
+/// [barequet-1995]. A surface with a larger opening stays as it is: there a small hole
 /// is opened or kept as the request says.
 void close_small_holes(Faces& faces, std::vector<Repair>& repairs);
 

@@ -223,6 +223,7 @@ void mend(const RawMesh& raw, const WeldOptions& options, HoleRule holes, Faces&
     drop_strays(faces, repairs);
     close_borders(options, !joins_coincident(raw, options), faces, repairs);
     close_t_junctions(faces, tolerance::same_position * size_of(faces), repairs);
+    clean_faces(faces, repairs);
     split_fans(faces);
     if (holes == HoleRule::automatic) close_small_holes(faces, repairs);
     turn_outward(faces, repairs);

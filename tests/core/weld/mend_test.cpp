@@ -132,6 +132,29 @@ TEST_SUITE("core/weld/mend") {
         }
     }
 
+    TEST_CASE("a wall without thickness goes, one of two equal faces stays") {
+        RawMesh walled = whole();
+        // From an edge inwards, there and back.
+        const Triangle t = walled.triangles[5000];
+        const auto inner = static_cast<Index>(walled.positions.size());
+        walled.positions.emplace_back(140.0, 0.0, 30.0);
+        for (const Triangle& wall : {Triangle{t[0], t[1], inner}, Triangle{t[1], t[0], inner}}) {
+            walled.triangles.push_back(wall);
+            walled.triangle_labels.push_back(walled.triangle_labels[5000]);
+        }
+        const SurfaceMesh surface = weld(walled);
+        CHECK(is_closed_surface(surface));
+        CHECK(surface.mesh.n_faces() == whole().triangles.size());
+        CHECK(repair_of(surface, "duplicate_faces_dropped")->count == 2);
+        RawMesh repeated = whole();
+        repeated.triangles.push_back({t[0], t[2], t[1]});
+        repeated.triangle_labels.push_back(repeated.triangle_labels[5000]);
+        CHECK(weld(repeated).mesh.n_faces() == whole().triangles.size());
+        const RawMesh sheet =
+            load_model("v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3\nf 1 3 4\nf 1 3 2\nf 1 4 3\n");
+        CHECK(weld(sheet).mesh.n_faces() == 2);
+    }
+
     TEST_CASE("a seam of texture is joined and listed, unless it is kept") {
         RawMesh seamed = whole();
         seamed.repeats_at_seams = true;

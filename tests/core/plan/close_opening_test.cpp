@@ -1,4 +1,4 @@
-#include "core/plan/close_openings.h"
+#include "core/plan/close_opening.h"
 
 #include <doctest/doctest.h>
 
@@ -41,7 +41,7 @@ bool is_open(const SurfaceMesh& surface) {
 
 }  // namespace
 
-TEST_SUITE("core/plan/close_openings") {
+TEST_SUITE("core/plan/close_opening") {
     TEST_CASE("a last without its top or its sole gives the halves of the whole one") {
         RawMesh whole = without("");
         Progress progress;
@@ -54,7 +54,7 @@ TEST_SUITE("core/plan/close_openings") {
                 CHECK(length_of(result, curve) ==
                       doctest::Approx(length_of(expected, curve)).epsilon(1e-3));
             REQUIRE(result.repairs.size() == 1);
-            CHECK(result.repairs[0].code == "openings_closed");
+            CHECK(result.repairs[0].code == "opening_closed");
             CHECK(result.repairs[0].detail.find(std::string(missing) == "top"
                                                     ? "topline"
                                                     : "featherline") != std::string::npos);
@@ -70,14 +70,14 @@ TEST_SUITE("core/plan/close_openings") {
         toeless.triangles.resize(kept);
         toeless.triangle_labels.resize(kept);
         SurfaceMesh surface = weld(toeless);
-        close_openings(surface, {});
+        close_opening(surface, {});
         CHECK(is_open(surface));
         SurfaceMesh topless = weld(without("top"));
         Request asked;
         asked.cut.cuts = {"centre_front"};
-        close_openings(topless, asked);
+        close_opening(topless, asked);
         CHECK(is_open(topless));
-        close_openings(topless, {});
+        close_opening(topless, {});
         CHECK_FALSE(is_open(topless));
     }
 }

@@ -1,4 +1,4 @@
-#include "core/plan/close_openings.h"
+#include "core/plan/close_opening.h"
 
 #include <algorithm>
 #include <limits>
@@ -13,7 +13,7 @@ namespace lastflat {
 namespace {
 
 /// More is no last's, and the triangulation takes the cube of a rim's vertices.
-constexpr std::size_t most_openings = 4, most_vertices = 1024;
+constexpr std::size_t most_vertices = 1024;
 /// So near to the line found a rim lies, as a share of the last's length.
 constexpr double rim_reach = 0.02;
 
@@ -94,14 +94,13 @@ bool asks_nothing(const Request& request) {
 
 }  // namespace
 
-void close_openings(SurfaceMesh& surface, const Request& request) {
+void close_opening(SurfaceMesh& surface, const Request& request) {
     if (!asks_nothing(request)) return;
     const auto rims = rims_of(surface.mesh);
-    const bool few = std::all_of(rims.begin(), rims.end(),
-                                 [](const auto& rim) { return rim.size() <= most_vertices; });
-    if (rims.empty() || rims.size() > most_openings || !few) return;
+    if (rims.size() != 1 || rims.front().size() > most_vertices) return;
+    const auto& rim = rims.front();
     SurfaceMesh closed = surface;
-    for (const auto& rim : rims) fill(closed, rim);
+    fill(closed, rim);
     Landmarks found;
     try {
         found = find_landmarks(closed);
@@ -111,20 +110,18 @@ void close_openings(SurfaceMesh& surface, const Request& request) {
     }
     const double length_mm = (found.toe_point - found.heel_point).norm();
     if (length_mm < shortest_infant_mm || length_mm > longest_last_mm) return;
-    Repair repair{"openings_closed", "", rims.size()};
-    for (const auto& rim : rims) {
-        const Points3 points = positions_of(surface, rim);
-        const auto line = line_at(closed, found, points);
-        if (!line) return;
-        double length = 0.0;
-        for (std::size_t i = 0; i < points.size(); ++i)
-            length += (points[(i + 1) % points.size()] - points[i]).norm();
-        repair.detail += (repair.detail.empty() ? "the rim of " : "; the rim of ") +
-                         fixed_text(length, 1) + " mm was taken as the " + *line;
-        repair.positions.push_back(points.front());
-        repair.lengths_mm.push_back(length);
-    }
-    closed.repairs.push_back(std::move(repair));
+    const Points3 points = positions_of(surface, rim);
+    const auto line = line_at(closed, found, points);
+    if (!line) return;
+    double length = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        length += (points[(i + 1) % points.size()] - points[i]).norm();
+    closed.repairs.push_back(
+        {"opening_closed",
+         "the rim of " + fixed_text(length, 1) + " mm was taken as the " + *line,
+         1,
+         {points.front()},
+         {length}});
     surface = std::move(closed);
 }
 
