@@ -51,8 +51,8 @@ struct WeldOptions {
     /// without indices within `tolerance::same_position` of the model's size.
     std::optional<double> tolerance_mm;
     /// Borders at most this far apart are stitched together; 0: none. Default:
-    /// `tolerance::near_border` of the model's size, and only if this closes a model that comes in
-    /// several pieces.
+    /// `tolerance::near_border` of the model's size, and only if this closes the model; one that is
+    /// a single piece only if coincident vertices are joined.
     std::optional<double> stitch_mm;
 };
 

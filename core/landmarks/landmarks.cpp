@@ -118,9 +118,7 @@ std::optional<Index> vertex_of_side(const SurfaceMesh& surface, const std::vecto
     constexpr std::size_t looked_at = 2000, corners = 200;
     Points3 on_curves;
     for (const CurveSource& curve : curves) {
-        const auto* path = std::get_if<VertexPath>(&curve.form);
-        const Points3 points = path != nullptr ? positions_of(surface, path->vertices)
-                                               : std::get<Polyline>(curve.form).points;
+        const Points3 points = points_of(surface, curve);
         for (std::size_t i = 0; i < points.size(); i += points.size() / corners + 1)
             on_curves.push_back(points[i]);
     }
@@ -273,6 +271,12 @@ Landmarks found_with(const SurfaceMesh& surface, const std::vector<BareFace>& fa
 }
 
 }  // namespace
+
+Points3 points_of(const SurfaceMesh& surface, const CurveSource& curve) {
+    const auto* path = std::get_if<VertexPath>(&curve.form);
+    return path != nullptr ? positions_of(surface, path->vertices)
+                           : std::get<Polyline>(curve.form).points;
+}
 
 Landmarks find_landmarks(const SurfaceMesh& surface) {
     check_surface(surface);

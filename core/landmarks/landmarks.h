@@ -40,4 +40,7 @@ inline constexpr std::size_t most_bare_triangles = 300'000;
 ///         too large, or has no such sides.
 [[nodiscard]] Landmarks find_landmarks(const SurfaceMesh& surface);
 
+/// Of a curve that was found: of vertices, or in space.
+[[nodiscard]] Points3 points_of(const SurfaceMesh& surface, const CurveSource& curve);
+
 }  // namespace lastflat

@@ -7,7 +7,7 @@
 #include "core/landmarks/landmarks.h"
 #include "core/numerics/least_area.h"
 #include "core/text.h"
-#include "core/weld/guess_unit.h"
+#include "core/weld/unit_of.h"
 
 namespace lastflat {
 namespace {
@@ -52,14 +52,6 @@ void fill(SurfaceMesh& surface, const std::vector<OpenMesh::VertexHandle>& rim) 
         surface.mesh.add_face(rim[at(t[0])], rim[at(t[1])], rim[at(t[2])]);
         surface.face_labels.push_back(label);
     }
-}
-
-Points3 points_of(const SurfaceMesh& surface, const CurveSource& curve) {
-    if (const auto* polyline = std::get_if<Polyline>(&curve.form)) return polyline->points;
-    Points3 points;
-    for (const Index v : std::get<VertexPath>(curve.form).vertices)
-        points.push_back(surface.position(v));
-    return points;
 }
 
 /// How far the rim comes away from the line's points and the middles between them.

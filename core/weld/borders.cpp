@@ -4,6 +4,15 @@
 
 namespace lastflat {
 
+Loop loop_of(const Faces& faces, std::vector<Index> vertices) {
+    Loop loop{std::move(vertices), {}};
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        loop.along.push_back(loop.length);
+        loop.length += (faces.position(loop.vertex(i + 1)) - faces.position(loop.vertex(i))).norm();
+    }
+    return loop;
+}
+
 std::vector<Loop> border_loops(const Faces& faces) {
     std::map<Index, std::vector<Index>> next;
     for_each_edge(sides_by_edge(faces.triangles), [&](auto first, auto last) {
@@ -11,7 +20,7 @@ std::vector<Loop> border_loops(const Faces& faces) {
     });
     std::vector<Loop> loops;
     while (!next.empty()) {
-        Loop loop;
+        std::vector<Index> vertices;
         auto at = next.begin();
         const Index begin = at->first;
         bool closed = false;
@@ -19,13 +28,11 @@ std::vector<Loop> border_loops(const Faces& faces) {
             const Index from = at->first, to = at->second.back();
             at->second.pop_back();
             if (at->second.empty()) next.erase(at);
-            loop.vertices.push_back(from);
-            loop.along.push_back(loop.length);
-            loop.length += (faces.position(to) - faces.position(from)).norm();
+            vertices.push_back(from);
             closed = to == begin;
             at = next.find(to);
         }
-        if (closed && loop.size() > 2) loops.push_back(std::move(loop));
+        if (closed && vertices.size() > 2) loops.push_back(loop_of(faces, std::move(vertices)));
     }
     return loops;
 }

@@ -19,6 +19,8 @@ struct Loop {
     [[nodiscard]] Index vertex(std::size_t i) const { return vertices[i % vertices.size()]; }
 };
 
+[[nodiscard]] Loop loop_of(const Faces& faces, std::vector<Index> vertices);
+
 /// All closed ones of more than two vertices; where loops meet in a vertex, some way through it.
 [[nodiscard]] std::vector<Loop> border_loops(const Faces& faces);
 

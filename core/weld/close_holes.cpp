@@ -60,13 +60,8 @@ std::vector<Loop> simple_loops(Faces& faces) {
     rename_vertices(faces, rejoined);
     std::vector<Loop> loops;
     for (auto& vertices : simple) {
-        if (vertices.size() < 3) continue;  // its two edges are one now
-        Loop& loop = loops.emplace_back(Loop{std::move(vertices), {}});
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            loop.along.push_back(loop.length);
-            loop.length +=
-                (faces.position(loop.vertex(i + 1)) - faces.position(loop.vertex(i))).norm();
-        }
+        if (vertices.size() > 2)  // else its two edges are one now
+            loops.push_back(loop_of(faces, std::move(vertices)));
     }
     return loops;
 }

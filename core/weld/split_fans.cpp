@@ -47,7 +47,7 @@ std::vector<Side> around_edge(const Faces& faces, const SideRange& range) {
     return sides;
 }
 
-/// An odd face is a fin: nobody can tell which of the others it belongs to.
+/// Two faces are neighbours; of an odd number one is a fin, and nobody can tell which.
 void join_all(const SideRange& range, DisjointSets& fans) {
     for (auto side = range.first + 1; side != range.second; ++side)
         join_across(*range.first, *side, fans);

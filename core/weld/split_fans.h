@@ -1,4 +1,4 @@
-// Places where a surface touches itself become places where it does not.
+// A surface is parted where it touches itself.
 #pragma once
 
 #include "core/weld/clean_faces.h"

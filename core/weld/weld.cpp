@@ -9,11 +9,11 @@
 #include "core/numerics/tolerances.h"
 #include "core/weld/check_manifold.h"
 #include "core/weld/close_holes.h"
-#include "core/weld/guess_unit.h"
-#include "core/weld/join_seams.h"
+#include "core/weld/joined_seams.h"
 #include "core/weld/merge_vertices.h"
 #include "core/weld/split_fans.h"
 #include "core/weld/stitch.h"
+#include "core/weld/unit_of.h"
 
 namespace lastflat {
 namespace {

@@ -12,14 +12,6 @@
 namespace lastflat {
 namespace {
 
-Points3 points_of(const CurveSource& curve, const SurfaceMesh& surface) {
-    if (const auto* polyline = std::get_if<Polyline>(&curve.form)) return polyline->points;
-    Points3 points;
-    for (const Index v : std::get<VertexPath>(curve.form).vertices)
-        points.push_back(surface.position(v));
-    return points;
-}
-
 /// The sample last without its groups, moved.
 RawMesh bare(const SampleLast& last, const Eigen::Affine3d& motion) {
     RawMesh raw = last.mesh;
@@ -43,7 +35,7 @@ void check_found(const SampleLast& last, const Landmarks& found, const SurfaceMe
                 truth.push_back(raw.positions[static_cast<std::size_t>(v)]);
         }
         const bool closed = curve.name == "featherline" || curve.name == "topline";
-        const auto off = test::distance_between(truth, points_of(curve, surface));
+        const auto off = test::distance_between(truth, points_of(surface, curve));
         CAPTURE(curve.name);
         CHECK(off.mean < (closed ? 1.0 : 1.5));
         CHECK(off.most < 3.0);

@@ -1,4 +1,4 @@
-#include "core/weld/join_seams.h"
+#include "core/weld/joined_seams.h"
 
 #include <map>
 

@@ -1,4 +1,4 @@
-#include "core/weld/guess_unit.h"
+#include "core/weld/unit_of.h"
 
 #include <Eigen/Geometry>
 #include <array>
