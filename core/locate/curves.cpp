@@ -98,11 +98,10 @@ public:
 
     [[nodiscard]] std::vector<SurfaceLine> run(const std::vector<CurveSource>& sources) {
         for (const CurveSource& source : sources) {
-            const double snap =
-                is_drawn(source.form) ? tolerance::drawn_snap : tolerance::geodesic_snap;
+            snap_ = tolerance::geodesic_snap;
             auto line = std::visit([&](const auto& form) { return this->line(source.name, form); },
                                    source.form);
-            found_.push_back({source.name, std::move(line), snap});
+            found_.push_back({source.name, std::move(line), snap_});
         }
         return std::move(found_);
     }
@@ -160,13 +159,9 @@ private:
     /// The polyline on the surface, its ends on other lines or the border where they are near.
     [[nodiscard]] std::vector<SurfacePoint> drawn(const std::string& name, const std::string& field,
                                                   const Points3& polyline) {
-        std::vector<SurfacePoint> stops;
-        for (std::size_t i = 0; i < polyline.size(); ++i) {
-            stops.push_back(on_surface(polyline[i], [&](const std::string& what) {
-                fail_curve(name, field, i, what, polyline[i]);
-            }));
-        }
+        std::vector<SurfacePoint> stops = on_surface(name, field, polyline);
         if (stops.size() < 2) fail_curve(name, field, 0, "a curve needs two points");
+        if (!runs_on_surface(polyline, stops)) snap_ = tolerance::drawn_snap;
         if (!is_closed(polyline)) {
             snap(stops.front());
             snap(stops.back());
@@ -177,12 +172,40 @@ private:
                 0.0)
                 continue;
             if (follow_surface(search(), surface_, stops[i], line)) continue;
+            if (follow_shortest_path(stops[i], line)) continue;
             fail_curve(name, field, i,
                        "the line from the point before cannot be followed on the surface, near " +
                            position_text(polyline[i]) + "; give more points there",
                        polyline[i]);
         }
         return line;
+    }
+
+    /// Where the surface is folded or pinched a plane does not lead through it, but a shortest path
+    /// does. Whether it goes about as straight as the line was drawn.
+    [[nodiscard]] bool follow_shortest_path(const SurfacePoint& to,
+                                            std::vector<SurfacePoint>& line) const {
+        constexpr double longest = 1.5;  // of the straight way
+        const std::vector<SurfacePoint> path = shortest_paths(surface_, {line.back(), to});
+        double length = 0.0;
+        for (std::size_t i = 1; i < path.size(); ++i)
+            length += (position_of(surface_, path[i]) - position_of(surface_, path[i - 1])).norm();
+        const double straight =
+            (position_of(surface_, to) - position_of(surface_, line.back())).norm();
+        if (length > longest * straight) return false;
+        line.insert(line.end(), path.begin() + 1, path.end());
+        return true;
+    }
+
+    /// Whether nothing is left to be found: it goes from one face into the next as it was given.
+    [[nodiscard]] bool runs_on_surface(const Points3& polyline,
+                                       const std::vector<SurfacePoint>& stops) {
+        const double round_off = tolerance::on_edge * search().size();
+        for (std::size_t i = 0; i < stops.size(); ++i) {
+            if ((position_of(surface_, stops[i]) - polyline[i]).norm() > round_off) return false;
+            if (i > 0 && !share_a_face(surface_, stops[i - 1], stops[i])) return false;
+        }
+        return true;
     }
 
     const SurfaceSearch& search() {
@@ -199,6 +222,36 @@ private:
                  " mm away from the surface (at most " + fixed_text(most, 3) +
                  " mm); are the units right?");
         return nearest.point;
+    }
+
+    /// All points of a drawn line.
+    std::vector<SurfacePoint> on_surface(const std::string& name, const std::string& field,
+                                         const Points3& polyline) {
+        const double most = tolerance::drawn_reach * search().size();
+        std::vector<SurfacePoint> stops;
+        std::vector<double> off;
+        for (const Vec3& position : polyline) {
+            const auto nearest = search().nearest(position);
+            stops.push_back(nearest.point);
+            off.push_back(nearest.distance);
+        }
+        const auto too_far = [&](double distance) { return distance > most; };
+        const auto first = std::find_if(off.begin(), off.end(), too_far);
+        if (first == off.end()) return stops;
+        const auto last = std::find_if_not(first, off.end(), too_far) - 1;
+        const auto worst = std::max_element(first, last + 1);
+        const auto place = [&](auto point) {
+            return position_text(polyline[static_cast<std::size_t>(point - off.begin())]);
+        };
+        const std::string limit =
+            " mm away from the surface (at most " + fixed_text(most, 3) + " mm)";
+        const std::string what = first == last ? "the point is " + fixed_text(*first, 3) + limit
+                                               : "from " + place(first) + " to " + place(last) +
+                                                     " it is up to " + fixed_text(*worst, 3) +
+                                                     limit + ", furthest at " + place(worst);
+        fail_curve(name, field, static_cast<std::size_t>(first - off.begin()),
+                   what + "; are the units right? Draw it on the surface, or from point to point",
+                   polyline[static_cast<std::size_t>(worst - off.begin())]);
     }
 
     void snap(SurfacePoint& end) {
@@ -231,6 +284,7 @@ private:
     const std::vector<PointSource>& points_;
     std::optional<SurfaceSearch> search_;
     std::vector<SurfaceLine> found_;
+    double snap_ = 0.0;  ///< of the line at hand
 };
 
 }  // namespace

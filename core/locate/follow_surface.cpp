@@ -1,6 +1,8 @@
 #include "core/locate/follow_surface.h"
 
 #include <algorithm>
+#include <limits>
+#include <set>
 
 #include "core/numerics/geometry.h"
 #include "core/numerics/tolerances.h"
@@ -42,13 +44,16 @@ bool leads_away(const std::vector<Index>& support, Index a, Index b) {
     return support.size() == 3 || !contains(support, a) || !contains(support, b);
 }
 
-/// Where the section leaves the faces at a point; the way that leads furthest along.
+/// Where the section leaves the faces at a point that it has not been through; the way that leads
+/// furthest along.
 std::optional<SurfacePoint> next_point(const SurfaceMesh& surface, const Section& section,
-                                       const SurfacePoint& from, double& reached) {
+                                       const SurfacePoint& from, std::set<Index>& been) {
     const std::vector<Index> support = from.support();
     std::optional<SurfacePoint> best;
-    double furthest = reached + tolerance::progress * section.length;
+    Index through = -1;
+    double furthest = -std::numeric_limits<double>::infinity();
     for (const Index face : faces_at(surface, from)) {
+        if (been.contains(face)) continue;
         const Triangle corners = corners_of(surface, face);
         for (std::size_t i = 0; i < 3; ++i) {
             const Index a = corners[i], b = corners[(i + 1) % 3];
@@ -57,18 +62,11 @@ std::optional<SurfacePoint> next_point(const SurfaceMesh& surface, const Section
             if (!point || section.along(position_of(surface, *point)) <= furthest) continue;
             furthest = section.along(position_of(surface, *point));
             best = point;
+            through = face;
         }
     }
-    reached = furthest;
+    been.insert(through);
     return best;
-}
-
-bool share_a_face(const SurfaceMesh& surface, const SurfacePoint& a, const SurfacePoint& b) {
-    const auto faces = faces_at(surface, a);
-    for (const Index face : faces_at(surface, b)) {
-        if (contains(faces, face)) return true;
-    }
-    return false;
 }
 
 /// The border's half-edge that a point is on.
@@ -122,6 +120,11 @@ bool slide(const SurfaceMesh& surface, const SurfacePoint& to, std::vector<Surfa
     return false;
 }
 
+constexpr double longest_way = 2.0;  ///< of the straight one
+/// So far before its beginning and beyond its end, as a share of its length, a section may go:
+/// surfaces have folds.
+constexpr double slack = 0.1;
+
 bool walk(const SurfaceMesh& surface, const SurfacePoint& to, std::vector<SurfacePoint>& line) {
     if (slide(surface, to, line)) return true;
     const Vec3 begin = position_of(surface, line.back()), end = position_of(surface, to);
@@ -131,15 +134,19 @@ bool walk(const SurfaceMesh& surface, const SurfacePoint& to, std::vector<Surfac
         way.cross(normal_at(surface, line.back()) + normal_at(surface, to)).normalized();
     if (!normal.allFinite()) return false;
     const Section section{begin, normal, way.normalized(), way.norm()};
-    double reached = 0.0;
     std::vector<SurfacePoint> way_points;
     SurfacePoint at = line.back();
-    constexpr std::size_t most_steps = 100'000;
+    std::set<Index> been;
+    double length = 0.0;
     while (!share_a_face(surface, at, to)) {
-        const auto next = next_point(surface, section, at, reached);
-        if (!next || reached > section.length * (1.0 + tolerance::on_edge) ||
-            way_points.size() > most_steps)
-            return false;
+        const auto next = next_point(surface, section, at, been);
+        if (!next) return false;
+        const Vec3 position = position_of(surface, *next);
+        length += (position - position_of(surface, at)).norm();
+        const double along = section.along(position);
+        const bool lost = length > longest_way * section.length ||
+                          along < -slack * section.length || along > (1.0 + slack) * section.length;
+        if (lost) return false;
         way_points.push_back(*next);
         at = *next;
     }

@@ -47,4 +47,12 @@ std::vector<Index> faces_at(const SurfaceMesh& surface, const SurfacePoint& poin
     return faces;
 }
 
+bool share_a_face(const SurfaceMesh& surface, const SurfacePoint& a, const SurfacePoint& b) {
+    const auto faces = faces_at(surface, a);
+    for (const Index face : faces_at(surface, b)) {
+        if (contains(faces, face)) return true;
+    }
+    return false;
+}
+
 }  // namespace lastflat

@@ -55,6 +55,10 @@ struct SurfacePoint {
 /// The faces that hold the point: one inside a face, two on an edge, all around a vertex.
 [[nodiscard]] std::vector<Index> faces_at(const SurfaceMesh& surface, const SurfacePoint& point);
 
+/// Whether one face holds both.
+[[nodiscard]] bool share_a_face(const SurfaceMesh& surface, const SurfacePoint& a,
+                                const SurfacePoint& b);
+
 [[nodiscard]] Triangle corners_of(const SurfaceMesh& surface, Index face);
 
 }  // namespace lastflat

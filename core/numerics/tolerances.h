@@ -93,9 +93,8 @@ inline constexpr double geodesic_snap = 1e-4, drawn_snap = 0.05;
 inline constexpr double drawn_reach = 0.02, drawn_end_reach = 0.004, border_reach = 0.1;
 
 /// Barycentric weights, and shares of an edge, below this are 0: what is on an edge but for
-/// round-off is on it, else a line would lose its way there. That a plane leads further is only
-/// believed from `progress` of its length on.
-inline constexpr double on_edge = 1e-9, progress = 1e-12;
+/// round-off is on it, else a line would lose its way there.
+inline constexpr double on_edge = 1e-9;
 /// The same for weights that a linear system of three has given.
 inline constexpr double solved_weight = 1e-12;
 

@@ -51,7 +51,7 @@ bool bounds_nothing(const Triangle& t, const Repeated& repeated,
 
 /// Walls go, of others one stays. Where most faces are there twice the model is a sheet with two
 /// sides.
-void drop_repeated(Faces& faces, RepairNote& note) {
+void drop_repetitions(Faces& faces, RepairNote& note) {
     std::map<Triangle, Repeated> all;
     for (const Triangle& t : faces.triangles) {
         const auto least =
@@ -156,23 +156,10 @@ bool remove_caps(Faces& faces, RepairNote& note) {
     return true;
 }
 
-struct Neighbour {
-    Index triangle;
-    bool against;  ///< winds the other way
+/// Two patches meet along an edge, and wind against each other there.
+struct Clash {
+    Index a, b;
 };
-
-/// Per triangle those across its edges that belong to two.
-std::vector<std::vector<Neighbour>> neighbours_of(const std::vector<Triangle>& triangles) {
-    std::vector<std::vector<Neighbour>> neighbours(triangles.size());
-    for_each_edge(sides_by_edge(triangles), [&](auto first, auto last) {
-        if (last - first != 2) return;
-        const Side &a = *first, &b = *(first + 1);
-        const bool against = a.forward == b.forward;
-        neighbours[at(a.triangle)].push_back({b.triangle, against});
-        neighbours[at(b.triangle)].push_back({a.triangle, against});
-    });
-    return neighbours;
-}
 
 /// Pieces whose borders come as near to each other as those that are stitched are one.
 void join_touching(const Faces& faces, DisjointSets& pieces) {
@@ -185,6 +172,41 @@ void join_touching(const Faces& faces, DisjointSets& pieces) {
     });
     const auto same = merge_vertices(positions, tolerance::near_border * size_of(faces));
     for (std::size_t i = 0; i < same.size(); ++i) pieces.join(border[i], border[at(same[i])]);
+}
+
+/// Per patch, under its representative, whether it is to be turned so that patches wind alike, as
+/// the greater part of those that hang together does.
+std::vector<bool> patches_to_turn(DisjointSets& patches, const std::vector<Clash>& clashes,
+                                  std::size_t count) {
+    std::vector<std::size_t> sizes(count, 0);
+    for (std::size_t t = 0; t < count; ++t) ++sizes[at(patches.find(static_cast<Index>(t)))];
+    std::map<Index, std::set<Index>> against;
+    for (const Clash& clash : clashes) {
+        const Index a = patches.find(clash.a), b = patches.find(clash.b);
+        if (a == b) continue;
+        against[a].insert(b);
+        against[b].insert(a);
+    }
+    std::vector<bool> turned(count, false), seen(count, false);
+    for (const auto& [seed, neighbours] : against) {
+        if (seen[at(seed)]) continue;
+        seen[at(seed)] = true;
+        std::vector<Index> group{seed};
+        std::size_t kept = 0, others = 0;
+        for (std::size_t i = 0; i < group.size(); ++i) {
+            const Index here = group[i];
+            (turned[at(here)] ? others : kept) += sizes[at(here)];
+            for (const Index next : against[here]) {
+                if (seen[at(next)]) continue;
+                seen[at(next)] = true;
+                turned[at(next)] = !turned[at(here)];
+                group.push_back(next);
+            }
+        }
+        if (others <= kept) continue;
+        for (const Index patch : group) turned[at(patch)] = !turned[at(patch)];
+    }
+    return turned;
 }
 
 }  // namespace
@@ -203,10 +225,18 @@ double size_of(const Faces& faces) {
     return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
-void clean_faces(Faces& faces, std::vector<Repair>& repairs) {
-    RepairNote collapsed, repeated, flat;
+void drop_repeated_faces(Faces& faces, std::vector<Repair>& repairs) {
+    RepairNote collapsed, repeated;
     drop_collapsed(faces, collapsed);
-    drop_repeated(faces, repeated);
+    drop_repetitions(faces, repeated);
+    collapsed.write(repairs, "faces_dropped", "triangles that name a vertex twice were left out");
+    repeated.write(repairs, "duplicate_faces_dropped",
+                   "triangles that repeat another were left out");
+}
+
+void clean_faces(Faces& faces, std::vector<Repair>& repairs) {
+    drop_repeated_faces(faces, repairs);
+    RepairNote flat;
     constexpr int most_rounds = 64;  // a cap's neighbour may become a cap
     for (int round = 0; round < most_rounds; ++round) {
         RepairNote silent;
@@ -215,41 +245,30 @@ void clean_faces(Faces& faces, std::vector<Repair>& repairs) {
         const bool removed = remove_caps(faces, flat);
         if (removed) drop_collapsed(faces, silent);
         if (!joined && !removed) break;
-        drop_repeated(faces, silent);
+        drop_repetitions(faces, silent);
     }
-    collapsed.write(repairs, "faces_dropped", "triangles that name a vertex twice were left out");
-    repeated.write(repairs, "duplicate_faces_dropped",
-                   "triangles that repeat another were left out");
     flat.write(repairs, "flat_faces_removed", "triangles without area were taken out");
 }
 
 void wind_alike(Faces& faces, std::vector<Repair>& repairs) {
     const std::size_t count = faces.triangles.size();
-    const auto neighbours = neighbours_of(faces.triangles);
-    std::vector<signed char> turned(count, -1);
+    DisjointSets patches(count);
+    std::vector<Clash> clashes;
+    for_each_edge(sides_by_edge(faces.triangles), [&](auto first, auto last) {
+        if (last - first != 2) return;
+        if (first->forward == (first + 1)->forward)
+            clashes.push_back({first->triangle, (first + 1)->triangle});
+        else
+            patches.join(first->triangle, (first + 1)->triangle);
+    });
+    if (clashes.empty()) return;
+    const std::vector<bool> turned = patches_to_turn(patches, clashes, count);
     RepairNote note;
-    for (std::size_t seed = 0; seed < count; ++seed) {
-        if (turned[seed] >= 0) continue;
-        turned[seed] = 0;
-        std::vector<Index> piece{static_cast<Index>(seed)};
-        std::size_t turns = 0;
-        for (std::size_t i = 0; i < piece.size(); ++i) {
-            const auto here = static_cast<std::size_t>(piece[i]);
-            for (const Neighbour& next : neighbours[here]) {
-                auto& state = turned[static_cast<std::size_t>(next.triangle)];
-                if (state >= 0) continue;
-                state = static_cast<signed char>(turned[here] ^ (next.against ? 1 : 0));
-                turns += state == 1 ? 1 : 0;
-                piece.push_back(next.triangle);
-            }
-        }
-        const bool other = 2 * turns > piece.size();
-        for (const Index t : piece) {
-            if ((turned[static_cast<std::size_t>(t)] == 1) == other) continue;
-            Triangle& triangle = faces.triangles[static_cast<std::size_t>(t)];
-            std::swap(triangle[1], triangle[2]);
-            note.at(faces.position(triangle[0]));
-        }
+    for (std::size_t t = 0; t < count; ++t) {
+        if (!turned[at(patches.find(static_cast<Index>(t)))]) continue;
+        Triangle& triangle = faces.triangles[t];
+        std::swap(triangle[1], triangle[2]);
+        note.at(faces.position(triangle[0]));
     }
     note.write(repairs, "faces_turned",
                "triangles that wound against their neighbours were turned");

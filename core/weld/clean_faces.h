@@ -36,13 +36,16 @@ struct Faces {
 /// The diagonal of the triangles' box.
 [[nodiscard]] double size_of(const Faces& faces);
 
-/// Drops triangles that name a vertex twice and repetitions of a triangle; flat ones are taken out
-/// so that no hole stays: where an edge is nearly zero its ends become one vertex, else the vertex
-/// that lies on the longest side is put into that side.
+/// Drops triangles that name a vertex twice and repetitions of a triangle.
+void drop_repeated_faces(Faces& faces, std::vector<Repair>& repairs);
+
+/// The same; and flat triangles are taken out so that no hole stays: where an edge is nearly zero
+/// its ends become one vertex, else the vertex that lies on the longest side is put into that side.
 void clean_faces(Faces& faces, std::vector<Repair>& repairs);
 
-/// Turns triangles until neighbours wind alike, as the greater part of each connected piece does.
-/// A surface that has no two sides stays as it is.
+/// Turns patches, each of triangles that wind alike, until those beside each other wind alike, as
+/// the greater part of each connected piece does. Within a patch nothing is turned: a surface that
+/// has no two sides stays as it is.
 void wind_alike(Faces& faces, std::vector<Repair>& repairs);
 
 /// Drops pieces that neither share a vertex with the rest nor come near to its border with their

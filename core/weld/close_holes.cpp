@@ -26,13 +26,6 @@ double across(const Faces& faces, const Loop& loop) {
     return widest;
 }
 
-bool are_small(const Faces& faces, const std::vector<Loop>& loops) {
-    const double limit = std::min(tolerance::small_hole_mm, tolerance::small_hole * size_of(faces));
-    return !loops.empty() && std::all_of(loops.begin(), loops.end(), [&](const Loop& loop) {
-        return loop.size() <= most_vertices && across(faces, loop) <= limit;
-    });
-}
-
 /// Holes that meet in a vertex came as one loop with a copy of it: each becomes a loop of its own.
 std::vector<Loop> simple_loops(Faces& faces) {
     const std::size_t files = faces.positions.size() - faces.copies.size();
@@ -86,8 +79,16 @@ std::uint32_t label_beside(const Faces& faces, const Loop& loop) {
 
 }  // namespace
 
+bool has_only_small_holes(const Faces& faces) {
+    const auto loops = border_loops(faces);
+    const double limit = std::min(tolerance::small_hole_mm, tolerance::small_hole * size_of(faces));
+    return !loops.empty() && std::all_of(loops.begin(), loops.end(), [&](const Loop& loop) {
+        return loop.size() <= most_vertices && across(faces, loop) <= limit;
+    });
+}
+
 void close_small_holes(Faces& faces, std::vector<Repair>& repairs) {
-    if (!are_small(faces, border_loops(faces))) return;
+    if (!has_only_small_holes(faces)) return;
     const auto loops = simple_loops(faces);
     std::set<std::pair<Index, Index>> edges;
     for (const Side& side : sides_by_edge(faces.triangles)) edges.emplace(side.low, side.high);

@@ -5,6 +5,9 @@
 
 namespace lastflat {
 
+/// Whether the surface is open, but closed but for small holes.
+[[nodiscard]] bool has_only_small_holes(const Faces& faces);
+
 /// Closes every border loop of a surface that has none further across than
 /// `tolerance::small_hole_mm`, by the triangulation of least area over the loop's own vertices
 /// [barequet-1995]. A surface with a larger opening stays as it is: there a small hole

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/numerics/disjoint_sets.h"
+#include "core/weld/fins.h"
 #include "core/weld/sides.h"
 
 namespace lastflat {
@@ -47,26 +48,34 @@ std::vector<Side> around_edge(const Faces& faces, const SideRange& range) {
     return sides;
 }
 
-/// Two faces are neighbours; of an odd number one is a fin, and nobody can tell which.
+/// Nobody can tell which of several patches is the fin.
 void join_all(const SideRange& range, DisjointSets& fans) {
     for (auto side = range.first + 1; side != range.second; ++side)
         join_across(*range.first, *side, fans);
 }
 
+/// Which faces of an edge belong together.
+enum class Partners { that_bound_material, others };
+
 /// Material lies on the rising side of a face that runs backward along the edge, and ends at the
 /// next one that runs forward.
-void join_around(std::vector<Side> sides, DisjointSets& fans) {
+void join_around(std::vector<Side> sides, Partners partners, DisjointSets& fans) {
+    std::vector<Side> begins, ends;
     for (bool found = true; found && sides.size() > 1;) {
         found = false;
         for (std::size_t i = 0; i < sides.size() && !found; ++i) {
             const std::size_t next = (i + 1) % sides.size();
             if (sides[i].forward || !sides[next].forward) continue;
-            join_across(sides[i], sides[next], fans);
+            begins.push_back(sides[i]);
+            ends.push_back(sides[next]);
             sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
             sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
             found = true;
         }
     }
+    if (partners == Partners::others && !ends.empty())
+        std::rotate(ends.begin(), ends.begin() + 1, ends.end());
+    for (std::size_t i = 0; i < begins.size(); ++i) join_across(begins[i], ends[i], fans);
 }
 
 /// A corner, its vertex, and the fan that it is in.
@@ -74,13 +83,19 @@ struct FanCorner {
     Index vertex, fan, corner;
 };
 
-std::vector<FanCorner> corners_by_fan(const Faces& faces) {
+std::vector<FanCorner> corners_by_fan(const Faces& faces, Partners partners) {
     const auto sides = sides_by_edge(faces.triangles);
+    DisjointSets patches = patches_of(faces.triangles, sides);
     DisjointSets fans(3 * faces.triangles.size());
     for_each_edge(sides, [&](auto first, auto last) {
         const SideRange range{first, last};
-        if (last - first == 2 || (last - first) % 2 == 1) return join_all(range, fans);
-        join_around(around_edge(faces, range), fans);
+        const bool one_patch = std::all_of(first, last, [&](const Side& side) {
+            return patches.find(side.triangle) == patches.find(first->triangle);
+        });
+        if ((last - first) % 2 == 1 && !one_patch) return join_all(range, fans);
+        const bool crowded = last - first > 2;
+        join_around(around_edge(faces, range), crowded ? partners : Partners::that_bound_material,
+                    fans);
     });
     std::vector<FanCorner> corners;
     for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
@@ -107,10 +122,8 @@ void give_copy(Faces& faces, Index vertex, const Corners& first, const Corners& 
         faces.triangles[at(corner->corner / 3)][at(corner->corner % 3)] = copy;
 }
 
-}  // namespace
-
-void split_fans(Faces& faces) {
-    const auto corners = corners_by_fan(faces);
+void split(Faces& faces, Partners partners) {
+    const auto corners = corners_by_fan(faces, partners);
     for (auto first = corners.begin(); first != corners.end();) {
         const Index vertex = first->vertex;
         auto largest = first, largest_end = first;
@@ -131,6 +144,20 @@ void split_fans(Faces& faces) {
         }
         first = last;
     }
+}
+
+bool has_crowded_edge(const Faces& faces) {
+    bool crowded = false;
+    for_each_edge(sides_by_edge(faces.triangles),
+                  [&](auto first, auto last) { crowded = crowded || last - first > 2; });
+    return crowded;
+}
+
+}  // namespace
+
+void split_fans(Faces& faces) {
+    split(faces, Partners::that_bound_material);
+    if (has_crowded_edge(faces)) split(faces, Partners::others);
 }
 
 void list_split_vertices(const Faces& faces, std::vector<Repair>& repairs) {

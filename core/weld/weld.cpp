@@ -9,6 +9,7 @@
 #include "core/numerics/tolerances.h"
 #include "core/weld/check_manifold.h"
 #include "core/weld/close_holes.h"
+#include "core/weld/fins.h"
 #include "core/weld/joined_seams.h"
 #include "core/weld/merge_vertices.h"
 #include "core/weld/split_fans.h"
@@ -151,25 +152,35 @@ std::size_t count_pieces(const Faces& faces) {
     return roots.size();
 }
 
-void stitch_borders(double tolerance, Faces& faces, std::vector<Repair>& repairs) {
-    stitch(faces, tolerance, repairs);
-    clean_faces(faces, repairs);
+/// Leaves at most two faces at every edge and one fan at every vertex, as far as that can be told.
+void make_manifold(Faces& faces, std::vector<Repair>& repairs) {
     wind_alike(faces, repairs);
+    drop_fins(faces, repairs);
     split_fans(faces);
 }
 
-/// Several pieces that stitching makes one closed model were meant as one, and so was one whose
-/// slits it closes, unless its slits are meant; a pair of flat halves was not.
-void close_borders(const WeldOptions& options, bool keeps_slits, Faces& faces,
+void stitch_borders(double tolerance, Faces& faces, std::vector<Repair>& repairs) {
+    stitch(faces, tolerance, repairs);
+    clean_faces(faces, repairs);
+    make_manifold(faces, repairs);
+}
+
+/// Several pieces that stitching makes one model, closed but for small holes, were meant as one,
+/// and so was one whose slits it closes, unless its slits are meant; a pair of flat halves was not.
+void close_borders(const WeldOptions& options, HoleRule holes, bool keeps_slits, Faces& faces,
                    std::vector<Repair>& repairs) {
     if (options.stitch_mm) {
         if (*options.stitch_mm > 0.0) stitch_borders(*options.stitch_mm, faces, repairs);
         return;
     }
-    if (is_closed(faces.triangles) || (keeps_slits && count_pieces(faces) < 2)) return;
+    if (is_closed(faces.triangles)) return;
+    const bool closes_holes = holes == HoleRule::automatic;
+    const bool only_slits = keeps_slits && count_pieces(faces) < 2;
+    if (only_slits && !(closes_holes && has_only_small_holes(faces))) return;
     Faces closed = faces;
     std::vector<Repair> done = repairs;
     stitch_borders(tolerance::near_border * size_of(faces), closed, done);
+    if (closes_holes) close_small_holes(closed, done);
     if (!is_closed(closed.triangles)) return;
     faces = std::move(closed);
     repairs = std::move(done);
@@ -215,17 +226,21 @@ void scale_lines(const RawMesh& raw, SurfaceMesh& surface) {
 /// Borders first: what is joined along a part of a border only is then joined along all of it.
 void mend(const RawMesh& raw, const WeldOptions& options, HoleRule holes, Faces& faces,
           std::vector<Repair>& repairs) {
+    drop_repeated_faces(faces, repairs);
+    wind_alike(faces, repairs);
+    const std::optional<Error> parted = edge_to_part(faces);
+    make_manifold(faces, repairs);
+    drop_strays(faces, repairs);
     clean_faces(faces, repairs);
     if (faces.triangles.empty())
         throw Error(ErrorCode::mesh_degenerate, "no face is left to flatten");
-    wind_alike(faces, repairs);
-    split_fans(faces);
-    drop_strays(faces, repairs);
-    close_borders(options, !joins_coincident(raw, options), faces, repairs);
+    make_manifold(faces, repairs);
+    close_borders(options, holes, !joins_coincident(raw, options), faces, repairs);
     close_t_junctions(faces, tolerance::same_position * size_of(faces), repairs);
     clean_faces(faces, repairs);
-    split_fans(faces);
+    make_manifold(faces, repairs);
     if (holes == HoleRule::automatic) close_small_holes(faces, repairs);
+    if (parted && !is_closed(faces.triangles)) throw *parted;
     turn_outward(faces, repairs);
     list_split_vertices(faces, repairs);
 }

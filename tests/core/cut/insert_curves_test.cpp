@@ -208,6 +208,12 @@ TEST_SUITE("core/cut/insert_curves") {
         const SurfaceMesh surface = surface_of(bumpy(10));
         CHECK(has(insert_error(surface, {drawn("far", {{1, 1, 0}, {50, 50, 40}})}),
                   "curve_invalid /curves/far/polyline/1: curve 'far', item 1: the point is"));
+        const std::string above = insert_error(
+            surface, {drawn("arch", {{10, 10, 0}, {20, 20, 40}, {30, 30, 70}, {40, 40, 0}})});
+        CHECK(has(above,
+                  "curve_invalid /curves/arch/polyline/1: curve 'arch', item 1: from 20.0 "
+                  "20.0 40.0 to 30.0 30.0 70.0 it is up to "));
+        CHECK(has(above, ", furthest at 30.0 30.0 70.0"));
         CHECK(has(insert_error(surface, {geodesic("g", {"a", "b"})}, {{"a", 3}}),
                   "curve_invalid /curves/g/to: curve 'g': there is no point 'b'"));
         CHECK(has(

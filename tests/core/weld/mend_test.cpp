@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/load/load_model.h"
+#include "core/numerics/geometry.h"
 #include "core/sample/sample_last.h"
 #include "core/weld/weld.h"
 
@@ -153,6 +154,59 @@ TEST_SUITE("core/weld/mend") {
         const RawMesh sheet =
             load_model("v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3\nf 1 3 4\nf 1 3 2\nf 1 4 3\n");
         CHECK(weld(sheet).mesh.n_faces() == 2);
+    }
+
+    TEST_CASE(
+        "an export's dirt goes, and the solid is what it was: a folded strip, a fin, a crack") {
+        RawMesh dirty = whole();
+        const std::size_t clean_vertices = used_vertices(weld(whole()));
+        const auto add = [&](Index a, Index b, Index c) {
+            dirty.triangles.push_back({a, b, c});
+            dirty.triangle_labels.push_back(0);
+        };
+        const auto add_vertex = [&](const Vec3& p) {
+            dirty.positions.push_back(p);
+            return static_cast<Index>(dirty.positions.size()) - 1;
+        };
+        // A flap without thickness on one edge, as two triangles back to back.
+        const Triangle on = dirty.triangles[1000];
+        const Vec3 middle = centroid(weld(whole()), on);
+        const Index tip = add_vertex(middle + Vec3(0.0, 0.0, 0.5));
+        add(on[0], on[1], tip);
+        add(on[1], on[0], tip);
+        // A single triangle that stands on another edge.
+        const Triangle under = dirty.triangles[3000];
+        add(under[0], under[1], add_vertex(dirty.positions[at(under[2])] + Vec3(0.0, 0.0, 2.0)));
+        // A crack: two triangles get a corner of their own, 0.005 mm off.
+        const Index moved = dirty.triangles[5000][0];
+        const Index twin = add_vertex(dirty.positions[at(moved)] + Vec3(0.005, 0.0, 0.0));
+        std::size_t apart = 0;
+        for (Triangle& t : dirty.triangles) {
+            for (Index& v : t) {
+                if (v == moved && apart < 2) {
+                    v = twin;
+                    ++apart;
+                }
+            }
+        }
+        REQUIRE(apart == 2);
+        const SurfaceMesh surface = weld(dirty);
+        CHECK(is_closed_surface(surface));
+        CHECK(used_vertices(surface) <= clean_vertices + 1);
+        CHECK(used_vertices(surface) >= clean_vertices);
+        REQUIRE(repair_of(surface, "fins_dropped") != nullptr);
+        CHECK(repair_of(surface, "fins_dropped")->count == 1);
+        CHECK(repair_of(surface, "faces_turned") == nullptr);
+    }
+
+    TEST_CASE("a few faces that wind wrongly are turned, the rest is not turned with them") {
+        RawMesh mesh = whole();
+        for (const std::size_t t : {100, 101, 2000})
+            std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
+        const SurfaceMesh surface = weld(mesh);
+        REQUIRE(repair_of(surface, "faces_turned") != nullptr);
+        CHECK(repair_of(surface, "faces_turned")->count == 3);
+        CHECK(repair_of(surface, "orientation_reversed") == nullptr);
     }
 
     TEST_CASE("a seam of texture is joined and listed, unless it is kept") {
