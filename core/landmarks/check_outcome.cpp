@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "core/text.h"
@@ -20,6 +21,9 @@ constexpr Bounds width_to_length{0.2, 0.6};
 constexpr Bounds instep_to_length{0.3, 1.1}, heel_to_length{0.1, 0.8};
 constexpr Bounds top_along{-0.15, 0.55}, top_above{0.1, 1.0};
 constexpr double facing_down = 0.7;
+/// A way along the line of this share of the last's length that is so many times longer than
+/// straight goes into a notch or a hole, and out again.
+constexpr double notch_way = 0.05, notch_detour = 2.0;
 /// Of the length: so near to the topline a line of the middle must end.
 constexpr double end_reach = 0.06;
 
@@ -50,11 +54,31 @@ double extent(const Points3& line, const Vec3& direction) {
     return most - least;
 }
 
+/// Where a line goes a long way to a point that is near.
+std::optional<Vec3> notch_in(const Points3& line, double least_way) {
+    constexpr std::size_t most_looked_at = 400;
+    const std::size_t step = line.size() / most_looked_at + 1;
+    std::vector<double> along{0.0};
+    for (std::size_t i = 1; i < line.size(); ++i)
+        along.push_back(along.back() + (line[i] - line[i - 1]).norm());
+    for (std::size_t i = 0; i < line.size(); i += step) {
+        for (std::size_t j = i + 1; j < line.size(); j += step) {
+            const double way = along[j] - along[i];
+            if (way >= least_way && way > notch_detour * (line[j] - line[i]).norm())
+                return line[(i + j) / 2];
+        }
+    }
+    return std::nullopt;
+}
+
 void check_middle_line(const Points3& line, const std::string& name, Bounds ratio,
                        const Points3& topline, double length) {
     if (distance_to(topline, line.back()) > end_reach * length)
         fail_search("the " + name + " line found does not end on the topline, but at " +
                     position_text(line.back()));
+    if (const auto notch = notch_in(line, notch_way * length))
+        fail_search("the " + name + " line found runs into a notch or a hole at " +
+                    position_text(*notch) + "; fill it");
     if (!ratio.hold(length_of(line) / length))
         fail_search("the " + name + " line found would be " + fixed_text(length_of(line), 0) +
                     " mm long on a last of " + fixed_text(length, 0) + " mm");

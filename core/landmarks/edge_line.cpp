@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/landmarks/smooth_normals.h"
+
 namespace lastflat {
 namespace {
+
+constexpr double small_gap = 5.0;  ///< mm on a last; a shorter stretch is not told from its sides
 
 /// 1 for a last of the usual size in mm: its surface is about 70,000 mm^2.
 double scale_of(const std::vector<BareFace>& faces) {
@@ -30,26 +34,38 @@ double ridge(const SurfaceMesh& surface, const std::vector<BareFace>& faces,
     return a.normal.dot(b.centre - a.centre) > 0.0 ? 0.0 : bend(surface, faces, h);
 }
 
-/// Per edge of a line, whether it is sharp.
+/// Per edge of a line, whether it is sharp, and so for `least_run` mm at least.
 std::vector<bool> sharp_edges(const SurfaceMesh& surface, const std::vector<BareFace>& faces,
-                              const std::vector<Index>& line) {
-    constexpr double least = 0.26;  // radians
+                              const std::vector<Index>& line, double least_run) {
+    const double least = std::max(0.26, 3.0 * typical_bend(surface, faces));  // radians
     std::vector<bool> sharp;
+    std::vector<double> lengths;
     for (std::size_t i = 1; i < line.size(); ++i) {
         const auto h = surface.mesh.find_halfedge(OpenMesh::VertexHandle(line[i - 1]),
                                                   OpenMesh::VertexHandle(line[i]));
         sharp.push_back(bend(surface, faces, h) > least);
+        lengths.push_back(surface.mesh.calc_edge_length(h));
+    }
+    const std::size_t n = sharp.size();
+    const auto first = std::find(sharp.begin(), sharp.end(), false);
+    if (first == sharp.end()) return sharp;
+    const auto begin = static_cast<std::size_t>(first - sharp.begin());
+    for (std::size_t k = 0; k < n; ++k) {
+        std::size_t end = k;
+        double run = 0.0;
+        for (; end < n && sharp[(begin + end) % n]; ++end) run += lengths[(begin + end) % n];
+        for (; run < least_run && k < end; ++k) sharp[(begin + k) % n] = false;
+        k = end;
     }
     return sharp;
 }
 
 /// Where there are no sharp edges, the line of a cut goes in steps along edges: evened out.
-void even_out(Points3& closed, double scale) {
-    constexpr double over = 6.0;  // mm on a last
+void even_out(Points3& closed, double over) {
     double length = 0.0;
     for (std::size_t i = 1; i < closed.size(); ++i) length += (closed[i] - closed[i - 1]).norm();
     const double spacing = length / static_cast<double>(closed.size() - 1);
-    const double wanted = 2.0 * std::pow(over * scale / spacing, 2);
+    const double wanted = 2.0 * std::pow(over / spacing, 2);
     const int rounds = static_cast<int>(std::clamp(wanted, 1.0, 200.0));
     closed.pop_back();
     const std::size_t n = closed.size();
@@ -85,6 +101,14 @@ void go_on(const SurfaceMesh& surface, const std::vector<BareFace>& faces, doubl
     }
 }
 
+/// So long a line must be sharp to be told from its sides: some of its edges.
+double least_run(const Points3& line, double scale) {
+    constexpr double edges = 3.0;
+    double length = 0.0;
+    for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
+    return std::max(small_gap * scale, edges * length / static_cast<double>(line.size() - 1));
+}
+
 Vec3 end_direction(const Points3& line, double way) {
     std::size_t at = line.size() - 1;
     while (at > 0 && (line.back() - line[at]).norm() < way) --at;
@@ -109,7 +133,7 @@ void bridge(const Points3& from, const Points3& to, double scale, Points3& resul
 /// eye follows the last of the edge and then goes on as it went. So does this, in each such gap.
 Points3 with_gaps_bridged(const SurfaceMesh& surface, const std::vector<BareFace>& faces,
                           const std::vector<Index>& line, const std::vector<bool>& sharp) {
-    const double small = 5.0 * scale_of(faces);  // mm on a last
+    const double small = small_gap * scale_of(faces);
     const std::size_t n = sharp.size();
     std::size_t begin = 0;
     while (begin < n && !(sharp[(begin + n - 1) % n] && sharp[begin])) ++begin;
@@ -160,9 +184,11 @@ Points3 with_gaps_bridged(const SurfaceMesh& surface, const std::vector<BareFace
 
 std::pair<CurveSource, double> edge_line(const SurfaceMesh& surface,
                                          const std::vector<BareFace>& faces,
-                                         const std::string& name, const std::vector<Index>& line) {
-    const auto sharp = sharp_edges(surface, faces, line);
+                                         const std::string& name, const std::vector<Index>& line,
+                                         bool noisy) {
+    constexpr double over_noise = 3.0, over_steps = 6.0;  // mm on a last
     const Points3 points = positions_of(surface, line);
+    const auto sharp = sharp_edges(surface, faces, line, least_run(points, scale_of(faces)));
     double all = 0.0, good = 0.0;
     for (std::size_t i = 0; i < sharp.size(); ++i) {
         const double length = (points[i + 1] - points[i]).norm();
@@ -170,11 +196,11 @@ std::pair<CurveSource, double> edge_line(const SurfaceMesh& surface,
         good += sharp[i] ? length : 0.0;
     }
     const double confidence = good / all;
-    if (confidence == 1.0) return {{name, VertexPath{line}}, confidence};
-    if (confidence >= mostly_sharp)
-        return {{name, Polyline{with_gaps_bridged(surface, faces, line, sharp)}}, confidence};
-    Points3 even = points;
-    even_out(even, scale_of(faces));
+    if (confidence == 1.0 && !noisy) return {{name, VertexPath{line}}, confidence};
+    const bool is_edge = confidence >= mostly_sharp;
+    Points3 even =
+        !is_edge || confidence == 1.0 ? points : with_gaps_bridged(surface, faces, line, sharp);
+    if (noisy || !is_edge) even_out(even, (is_edge ? over_noise : over_steps) * scale_of(faces));
     return {{name, Polyline{std::move(even)}}, confidence};
 }
 

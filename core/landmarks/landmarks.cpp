@@ -8,6 +8,8 @@
 
 #include "core/landmarks/check_outcome.h"
 #include "core/landmarks/edge_line.h"
+#include "core/landmarks/furthest_pair.h"
+#include "core/landmarks/smooth_normals.h"
 #include "core/landmarks/sole_and_top.h"
 #include "core/locate/surface_search.h"
 
@@ -79,20 +81,6 @@ std::vector<Points3> stretches(const PlaneSection& section, const std::vector<bo
         for (std::size_t k = first; k <= last; ++k) found.back().push_back(entry(k));
     }
     return found;
-}
-
-/// The two points of a line that are furthest apart.
-std::pair<Vec3, Vec3> furthest_pair(const Points3& line, const Vec3& forward) {
-    std::pair<Vec3, Vec3> best{line.front(), line.front()};
-    const std::size_t step = std::max<std::size_t>(1, line.size() / 1000);
-    for (std::size_t i = 0; i < line.size(); i += step) {
-        for (std::size_t j = i + 1; j < line.size(); ++j) {
-            if ((line[i] - line[j]).squaredNorm() > (best.first - best.second).squaredNorm())
-                best = {line[i], line[j]};
-        }
-    }
-    if (forward.dot(best.second - best.first) < 0.0) std::swap(best.first, best.second);
-    return best;
 }
 
 /// How far the line reaches to the left and to the right of the plane, at the waist.
@@ -176,13 +164,11 @@ void find_sides(const SurfaceMesh& surface, const std::vector<bool>& upper, cons
 /// The stretch of the upper in the plane through the heel, the toe and a third point that begins
 /// nearest to `from`.
 Points3 upper_section(const SurfaceMesh& surface, const std::vector<bool>& upper,
-                      const Landmarks& found, const Vec3& third, const Vec3& from) {
+                      const Landmarks& found, const Vec3& third, const Vec3& from, bool exact) {
     const Vec3 normal =
         (found.toe_point - found.heel_point).cross(third - found.heel_point).normalized();
     // What was evened out has moved away from the faces' borders: the line goes beyond it.
     const double further = 0.03 * (found.toe_point - found.heel_point).norm();
-    const bool exact =
-        found.featherline_confidence >= mostly_sharp && found.topline_confidence >= mostly_sharp;
     auto lines =
         stretches(section_of(surface, found.heel_point, normal), upper, exact ? 0.0 : further);
     const auto off = [&](const Points3& line) {
@@ -198,13 +184,21 @@ Points3 upper_section(const SurfaceMesh& surface, const std::vector<bool>& upper
 }
 
 void find_centre_line(const SurfaceMesh& surface, const std::vector<bool>& upper,
-                      const Points3& topline, Landmarks& found) {
+                      const Points3& topline, bool noisy, Landmarks& found) {
+    const bool exact = !noisy && found.featherline_confidence >= mostly_sharp &&
+                       found.topline_confidence >= mostly_sharp;
     const auto [back, front] = furthest_pair(topline, found.forward);
     found.curves.push_back(
         {curve_name::centre_front,
-         Polyline{upper_section(surface, upper, found, front, found.toe_point)}});
-    found.curves.push_back(
-        {curve_name::heel, Polyline{upper_section(surface, upper, found, back, found.heel_point)}});
+         Polyline{upper_section(surface, upper, found, front, found.toe_point, exact)}});
+    found.curves.push_back({curve_name::heel, Polyline{upper_section(surface, upper, found, back,
+                                                                     found.heel_point, exact)}});
+}
+
+/// Where an edge fades out, a line is bridged; on a rough surface nobody can tell where it fades.
+void doubt_what_fades(Landmarks& found) {
+    for (double* confidence : {&found.featherline_confidence, &found.topline_confidence})
+        *confidence = std::max(0.0, 1.0 - 2.0 * (1.0 - *confidence));
 }
 
 void warn_if_unsure(Landmarks& found) {
@@ -238,7 +232,7 @@ void check_shares(const std::vector<BareFace>& faces, const SoleAndTop& parts) {
 
 /// What is found if the last stands as the frame says.
 Landmarks found_with(const SurfaceMesh& surface, const std::vector<BareFace>& faces,
-                     const LastFrame& frame, TopChoice top) {
+                     const LastFrame& frame, TopChoice top, bool noisy) {
     const SoleAndTop parts = sole_and_top(surface, faces, frame, top);
     std::vector<bool> upper(faces.size());
     for (std::size_t f = 0; f < faces.size(); ++f) upper[f] = !parts.sole[f] && !parts.top[f];
@@ -247,9 +241,9 @@ Landmarks found_with(const SurfaceMesh& surface, const std::vector<BareFace>& fa
     Landmarks found;
     found.curves.resize(2);
     std::tie(found.curves[0], found.featherline_confidence) =
-        edge_line(surface, faces, curve_name::featherline, featherline);
+        edge_line(surface, faces, curve_name::featherline, featherline, noisy);
     std::tie(found.curves[1], found.topline_confidence) =
-        edge_line(surface, faces, curve_name::topline, topline);
+        edge_line(surface, faces, curve_name::topline, topline, noisy);
     const SurfaceSearch search(surface);
     for (CurveSource& curve : found.curves) {
         auto* line = std::get_if<Polyline>(&curve.form);
@@ -262,7 +256,7 @@ Landmarks found_with(const SurfaceMesh& surface, const std::vector<BareFace>& fa
     found.forward = (found.toe_point - found.heel_point).normalized();
     found.up = (frame.up - frame.up.dot(found.forward) * found.forward).normalized();
     check_shares(faces, parts);
-    find_centre_line(surface, upper, positions_of(surface, topline), found);
+    find_centre_line(surface, upper, positions_of(surface, topline), noisy, found);
     check_outcome(faces, parts, line, positions_of(surface, topline), found);
     find_sides(surface, upper, line, found);
     found.cut.cuts = {curve_name::featherline, curve_name::topline, curve_name::centre_front,
@@ -280,7 +274,10 @@ Points3 points_of(const SurfaceMesh& surface, const CurveSource& curve) {
 
 Landmarks find_landmarks(const SurfaceMesh& surface) {
     check_surface(surface);
-    const auto faces = bare_faces(surface);
+    auto faces = bare_faces(surface);
+    constexpr double coarse = 0.05;  // radians from face to face
+    const bool noisy = smooth_normals(surface, faces);
+    const bool rough = noisy || typical_bend(surface, faces) > coarse;
     std::optional<Landmarks> best;
     std::optional<Error> why;
     const auto sureness = [](const Landmarks& found) {
@@ -291,7 +288,7 @@ Landmarks find_landmarks(const SurfaceMesh& surface) {
         if (best && best->topline_confidence >= mostly_sharp) break;
         for (const LastFrame& frame : frames) {
             try {
-                Landmarks found = found_with(surface, faces, frame, top);
+                Landmarks found = found_with(surface, faces, frame, top, noisy);
                 if (!best || sureness(found) > sureness(*best)) best = std::move(found);
             } catch (const Error& error) {
                 if (!why) why = error;
@@ -299,6 +296,7 @@ Landmarks find_landmarks(const SurfaceMesh& surface) {
         }
     }
     if (!best) throw why.value();
+    if (rough) doubt_what_fades(*best);
     warn_if_unsure(*best);
     return *best;
 }

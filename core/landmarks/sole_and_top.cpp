@@ -7,13 +7,15 @@
 #include <optional>
 
 #include "core/landmarks/min_cut.h"
+#include "core/landmarks/smooth_normals.h"
 #include "core/numerics/geometry.h"
 
 namespace lastflat {
 namespace {
 
 std::vector<GraphEdge> graph_of(const SurfaceMesh& surface, const std::vector<BareFace>& faces) {
-    constexpr double sharp = 0.18, floor = 0.01;  // radians; of the cost of a smooth edge
+    constexpr double floor = 0.01;  // of the cost of a smooth edge
+    const double sharp = std::max(0.18, 3.0 * typical_bend(surface, faces));  // radians
     std::vector<GraphEdge> edges;
     for (const auto edge : surface.mesh.edges()) {
         const auto h = surface.mesh.halfedge_handle(edge, 0);

@@ -3,8 +3,13 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
+#include <numbers>
+#include <random>
 
+#include "core/landmarks/furthest_pair.h"
 #include "core/landmarks/min_cut.h"
+#include "core/landmarks/smooth_normals.h"
+#include "core/numerics/geometry.h"
 #include "core/sample/sample_last.h"
 #include "core/weld/weld.h"
 #include "tests/helpers/curve_distance.h"
@@ -95,6 +100,71 @@ TEST_SUITE("core/landmarks") {
         const Landmarks found = find_landmarks(weld(soup, options));
         CHECK(found.warnings.empty());
         CHECK(found.foot == Foot::right);
+    }
+
+    TEST_CASE("noise moves no curve far, and the last stays upright") {
+        const SampleLast last = make_sample_last();
+        for (const double amplitude : {0.05, 0.1, 0.3}) {
+            CAPTURE(amplitude);
+            RawMesh raw = bare(last, Eigen::Affine3d::Identity());
+            std::mt19937 random(7);
+            std::normal_distribution<double> noise(0.0, amplitude);
+            for (Vec3& p : raw.positions) p += Vec3(noise(random), noise(random), noise(random));
+            const SurfaceMesh surface = weld(raw);
+            const Landmarks found = find_landmarks(surface);
+            CHECK(found.foot == Foot::right);
+            CHECK(found.up.z() > 0.95);
+            CHECK(found.forward.x() > 0.95);
+            check_found(last, found, surface, raw);
+        }
+    }
+
+    TEST_CASE("what is smoothed is noise; a coarse or clean last keeps its normals") {
+        const SampleLast last = make_sample_last();
+        RawMesh raw = bare(last, Eigen::Affine3d::Identity());
+        const SurfaceMesh clean = weld(raw);
+        auto faces = bare_faces(clean);
+        const double bend = typical_bend(clean, faces);
+        CHECK_FALSE(smooth_normals(clean, faces));
+        CHECK(typical_bend(clean, faces) == bend);
+        std::mt19937 random(3);
+        std::normal_distribution<double> noise(0.0, 0.2);
+        for (Vec3& p : raw.positions) p += Vec3(noise(random), noise(random), noise(random));
+        const SurfaceMesh noisy = weld(raw);
+        auto rough = bare_faces(noisy);
+        CHECK(typical_bend(noisy, rough) > 4.0 * bend);
+        CHECK(smooth_normals(noisy, rough));
+        CHECK(typical_bend(noisy, rough) < 1.5 * bend);
+        double turned = 0.0, all = 0.0;
+        for (std::size_t f = 0; f < faces.size(); ++f) {
+            turned += faces[f].area * angle_between(faces[f].normal, rough[f].normal);
+            all += faces[f].area;
+        }
+        CHECK(turned / all < 0.06);  // radians; sharp edges stand where they stood
+    }
+
+    TEST_CASE("the ends of a round line are where its ends are, wherever its vertices lie") {
+        for (const double first : {0.0, 0.3, 0.7}) {
+            Points3 ellipse;
+            for (int i = 0; i <= 60; ++i) {
+                const double angle = 2.0 * std::numbers::pi * (i % 60 + first) / 60.0;
+                const double off = 0.05 * (i % 2 == 0 ? 1.0 : -1.0);
+                ellipse.emplace_back((130.0 + off) * std::cos(angle), 45.0 * std::sin(angle), 0.0);
+            }
+            const auto [back, front] = furthest_pair(ellipse, Vec3(1.0, 0.0, 0.0));
+            CHECK((back - Vec3(-130.0, 0.0, 0.0)).norm() < 0.6);
+            CHECK((front - Vec3(130.0, 0.0, 0.0)).norm() < 0.6);
+        }
+    }
+
+    TEST_CASE("a notch in the top, as a hinged last has, is refused with its place") {
+        RawMesh raw = bare(make_sample_last(), Eigen::Affine3d::Identity());
+        for (Vec3& p : raw.positions) {
+            const double off = std::abs(p.x() - 64.0) / 6.0;
+            if (p.z() > 80.0 && off < 1.0) p.z() -= 24.0 * (1.0 - off);
+        }
+        CHECK_THROWS_WITH_AS((void)find_landmarks(weld(raw)),
+                             doctest::Contains("runs into a notch or a hole at"), Error);
     }
 
     TEST_CASE("what is no last says what is needed") {
