@@ -130,7 +130,10 @@ void ObjectReader::finish() const {
         if (known_.count(name) > 0) continue;
         std::string list;
         for (const auto& word : known_) list += (list.empty() ? "" : ", ") + word;
-        throw InvalidRequest(step(field_.pointer, name), "unknown field; known here: " + list);
+        const std::string nearest = suggestion(name, {known_.begin(), known_.end()});
+        throw InvalidRequest(step(field_.pointer, name),
+                             "unknown field" + nearest + (nearest.empty() ? "; known" : " Known") +
+                                 " here: " + list);
     }
 }
 

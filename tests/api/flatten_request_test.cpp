@@ -215,12 +215,14 @@ TEST_SUITE("api/flatten_request") {
     }
 
     TEST_CASE("an error lists what there is instead") {
-        CHECK(
-            detail_of(R"({"seem": 1})")
-                .find(
-                    "known here: constraints, curves, cuts, draw, holes, last_length_mm, layout") !=
-            std::string::npos);
+        const std::string known =
+            "nown here: constraints, curves, cuts, draw, holes, last_length_mm, layout, locks";
+        CHECK(detail_of(R"({"surfeit": 1})").find("unknown field; k" + known) == 0);
+        CHECK(detail_of(R"({"lock": []})").find("unknown field; did you mean 'locks'? K" + known) ==
+              0);
         CHECK(detail_of(R"({"units": "feet"})") == "must be one of: mm, cm, m, in");
+        CHECK(detail_of(R"({"holes": "kep"})") ==
+              "must be one of: auto, keep, open; did you mean 'keep'?");
     }
 
     TEST_CASE("documents that cannot be read are refused, not guessed") {
