@@ -62,6 +62,7 @@ Prepared prepare(SurfaceMesh surface, Plan plan, Progress& progress) {
     check_constraints(prepared.constraints, cut.inserted.curves, cut.regions);
     (void)coupled_regions(cut.regions, prepared.constraints);  // refuses before the maps are made
     check_zones(plan.request.weights.zones, cut.inserted.curves, cut.regions);
+    prepared.featherlines = divide_featherlines(surface, cut.regions, plan.request.points);
     prepared.warnings = std::move(surface.warnings);
     if (plan.landmarks) append(prepared.warnings, plan.landmarks->warnings);
     append(prepared.warnings, cut.warnings);

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/cut/cut_surface.h"
+#include "core/measure/featherline.h"
 
 namespace lastflat {
 
@@ -24,6 +25,7 @@ struct Prepared {
     Plan plan;
     std::vector<Region> regions;
     std::vector<Constraint> constraints;  ///< the plan's, and one for every seam
+    std::vector<FeatherlineSide> featherlines;
     std::size_t file_vertices = 0;
     std::vector<Index> vertex_copies;  ///< as in `SurfaceMesh`; their ids follow those of the file
     /// Vertices that curves made, in the order of their ids, which follow those of the copies.
@@ -34,8 +36,9 @@ struct Prepared {
     double load_ms = 0.0;
 };
 
-/// Cuts the surface as planned. Constraints and zones then fit the regions.
-/// Throws: Error, as `cut_surface`, `check_constraints`, `check_zones`.
+/// Cuts the surface as planned. Constraints, zones and points of the featherline then fit the
+/// regions.
+/// Throws: Error, as `cut_surface`, `check_constraints`, `check_zones`, `divide_featherlines`.
 [[nodiscard]] Prepared prepare(SurfaceMesh surface, Plan plan, Progress& progress);
 
 /// All of it: `read_model`, `make_plan`, and the above.

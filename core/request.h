@@ -19,6 +19,12 @@ inline constexpr const char *toe = "toe", *instep = "instep";
 inline constexpr const char* heel = "heel";  ///< the back curve
 inline constexpr const char *featherline = "featherline", *topline = "topline";
 }  // namespace curve_name
+/// Where zones of the featherline end towards the seat; on each side, so with the region's name
+/// behind: toe_end_lateral.
+namespace point_name {
+inline constexpr const char *toe_end = "toe_end", *joint_end = "joint_end";
+inline constexpr const char* waist_end = "waist_end";
+}  // namespace point_name
 namespace region_name {
 inline constexpr const char *lateral = "lateral", *medial = "medial";
 }  // namespace region_name

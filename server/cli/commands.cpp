@@ -10,6 +10,7 @@
 #include "api/nearest_name.h"
 #include "api/problem_of.h"
 #include "api/refusal.h"
+#include "api/result_table.h"
 #include "api/sample_request.h"
 #include "core/export/write_model.h"
 #include "core/inspect.h"
@@ -117,7 +118,8 @@ int flatten_command(const fs::path& model, const std::optional<fs::path>& reques
         JobInput input = read_input(model, request);
         input.options.threads = std::max(1u, std::thread::hardware_concurrency());
         Progress progress;
-        const JobOutput output = run_job(input, Compression::none, progress);
+        const FlattenResult result = flatten(input.model, input.options, progress);
+        const JobOutput output = render(result, Compression::none);
         const Files files{{"result.json", output.json.bytes},
                           {"flat.obj", output.obj.bytes},
                           {"flat.glb", output.glb.bytes},
@@ -127,7 +129,7 @@ int flatten_command(const fs::path& model, const std::optional<fs::path>& reques
             std::cout << output.metrics.bytes << std::endl;
             return;
         }
-        std::cout << "written to " << directory.string() << ":";
+        std::cout << api::to_table(result) << "written to " << directory.string() << ":";
         for (const auto& [name, bytes] : files) std::cout << " " << name;
         std::cout << std::endl;
     });

@@ -10,7 +10,7 @@
 namespace lastflat::server {
 
 /// Flattens MODEL and writes DIR/result.json, flat.obj, flat.glb and pattern.svg: all of them or
-/// none. Prints their names, to programs what `GET /v1/jobs/{id}/metrics`
+/// none. Prints what came of it, to people as a table, to programs as `GET /v1/jobs/{id}/metrics`
 /// answers. Returns the exit code: 0 done; else as `complain`.
 [[nodiscard]] int flatten_command(const std::filesystem::path& model,
                                   const std::optional<std::filesystem::path>& request,

@@ -44,6 +44,10 @@ says() {
 @test "flatten ends with 0 and writes the pattern" {
     run -0 --separate-stderr "$LASTFLAT" flatten "$sample/last.obj" --request "$sample/last.request.json" --out new/out
     assert_equal "$stderr" ""
+    [[ $output =~ flat\ -\ last:\ above\ 0.*lateral\ +heel\ +78\.710\ +78\.710\ +0\.000000\ +0\.000\ +pass ]]
+    [[ $output =~ lateral\ +featherline\ +[0-9.]+\ +[0-9.]+\ +\+14\.[0-9]+\ +\+4\.[0-9]+\ +- ]]
+    for zone in toe joint waist seat; do [[ $output =~ medial\ +$zone\  ]]; done
+    [[ $output == *"above 0 stretched, below 0 gathered"* && $output != *fail* ]]
     assert_equal "$(tail -n 1 <<< "$output")" "written to new/out: result.json flat.obj flat.glb pattern.svg"
     assert_equal "$(ls -A new/out | xargs)" "flat.glb flat.obj pattern.svg result.json"
     certify "$sample/last.obj" "$sample/last.request.json" new/out/result.json
@@ -56,7 +60,8 @@ says() {
 @test "for programs flatten prints the result without what grows with the mesh" {
     run -0 --separate-stderr "$LASTFLAT" flatten "$sample/last.obj" --request "$sample/last.request.json" --out out --json
     assert_equal "$stderr" ""
-    jq -e --slurpfile whole out/result.json '.pairs == $whole[0].pairs and (.regions | map(.curves)) == ($whole[0].regions | map(.curves)) and (.regions[0] | has("uv_mm") | not)' <<< "$output"
+    jq -e --slurpfile whole out/result.json '.pairs == $whole[0].pairs and .points == $whole[0].points
+        and (.regions | map(.curves)) == ($whole[0].regions | map(.curves)) and (.regions[0] | has("uv_mm") | not)' <<< "$output"
 }
 
 @test "flatten without a request takes every default" {
