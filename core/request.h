@@ -244,6 +244,15 @@ struct MethodOptions {
     AngleRule angles = AngleRule::curvature;   ///< of the border's polygon
 };
 
+/// What the colour of the drawing shows of the leather when it is lasted.
+enum class Shading {
+    area,     ///< strain of its area
+    stretch,  ///< the larger principal strain
+    gather,   ///< the smaller principal strain
+    shear,    ///< the most that a right angle changes
+    plain,    ///< nothing: no colour
+};
+
 /// What the shoe-maker asks of one pattern.
 struct Request {
     WeldOptions weld;
@@ -255,7 +264,8 @@ struct Request {
     DistortionWeights weights;               ///< of `isometric`
     std::optional<MaterialLimits> material;  ///< judged, not enforced
     MethodOptions method;
-    bool draw_fan = false;  ///< the geodesic fan in the drawing
+    Shading shading = Shading::area;  ///< of the drawing
+    bool draw_fan = false;            ///< the geodesic fan in the drawing
 };
 
 /// A request, and how it is run.

@@ -66,14 +66,4 @@ std::optional<Verdict> area_verdict(const Region& region, const Metrics& metrics
     return *beyond <= 0.5 ? Verdict::pass : *beyond <= 1.5 ? Verdict::warn : Verdict::fail;
 }
 
-std::vector<double> signed_stretches(const Region& region, const Points2& uv) {
-    std::vector<double> stretches;
-    for (const Triangle& t : region.triangles) {
-        const Stretch s = stretch_of(region, uv, t);
-        const double larger = 1.0 / s.g, smaller = 1.0 / s.G;
-        stretches.push_back(larger * smaller >= 1.0 ? larger : smaller);
-    }
-    return stretches;
-}
-
 }  // namespace lastflat

@@ -113,8 +113,4 @@ struct StretchReport {
 [[nodiscard]] std::vector<PairReport> measure_pairs(const std::vector<Region>& regions,
                                                     const std::vector<Chart>& charts);
 
-/// Per triangle, the principal stretch surface -> plane that is further from 1 (above: larger in
-/// the flat).
-[[nodiscard]] std::vector<double> signed_stretches(const Region& region, const Points2& uv);
-
 }  // namespace lastflat
