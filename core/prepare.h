@@ -8,10 +8,17 @@
 
 namespace lastflat {
 
+/// Triangles of a file that bear the same names, and no others.
+struct NamedFaces {
+    std::vector<std::string> names;  ///< ascending
+    std::size_t triangles = 0;
+    bool operator==(const NamedFaces&) const = default;
+};
+
 /// A model, read and mended.
 struct ReadModel {
-    std::size_t vertices = 0, triangles = 0;                  ///< of the file
-    std::vector<std::pair<std::string, std::size_t>> groups;  ///< names, triangles; of the file
+    std::size_t vertices = 0, triangles = 0;  ///< of the file
+    std::vector<NamedFaces> groups;           ///< every triangle of the file is in one
     SurfaceMesh surface;
     double load_ms = 0.0;
 };

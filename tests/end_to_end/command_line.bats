@@ -112,6 +112,22 @@ says() {
         "[400,\"arguments_invalid\",\"there is no command 'flaten'; did you mean 'flatten'?\"]"
 }
 
+@test "inspect counts each face once" {
+    printf 'v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\ng b a\nf 1 2 3\ng a\nf 1 3 4\n' > square.obj
+    "$LASTFLAT" inspect square.obj > square.json
+    jq -e '.file.groups == [{names: ["a"], triangles: 1}, {names: ["a", "b"], triangles: 1}]' square.json
+    for model in "$sample/last.obj" "$sample/last.glb"; do
+        "$LASTFLAT" inspect "$model" | jq -e '.file | (.groups | map(.triangles) | add) == .triangles'
+    done
+}
+
+@test "a region that the request leaves out is warned of" {
+    jq -c 'del(.regions.medial)' "$sample/last.request.json" > half.json
+    run -0 "$LASTFLAT" flatten "$sample/last.obj" --request half.json --out out
+    [[ $output == *"warning: a piece of "*" is none of the regions and is left out; name it in \"regions\" if it is wanted"* ]]
+    jq -e '.warnings | map(.code) == ["piece_left_out"]' out/result.json
+}
+
 @test "arguments that are wrong end with 2" {
     for arguments in "" "flatten" "flatten a.obj" "flaten" "serve --listen nowhere" "serve --workers many" "sample-last"; do
         # shellcheck disable=SC2086
