@@ -70,6 +70,8 @@ public:
     [[nodiscard]] const Field& field() const { return field_; }
 
 private:
+    [[noreturn]] void fail_unknown(const std::string& name) const;
+
     Field field_;
     std::set<std::string> known_;
 };

@@ -44,9 +44,9 @@ std::string aligned(const std::vector<Row>& rows, std::size_t words) {
 
 /// With its sign; what rounds to nothing has none.
 std::string signed_text(double value, int decimals) {
-    const std::string text = fixed_text(std::abs(value), decimals);
-    if (text.find_first_not_of("0.") == std::string::npos) return text;
-    return (value < 0.0 ? "-" : "+") + text;
+    std::string text = fixed_text(std::abs(value), decimals);
+    if (text.find_first_not_of("0.") != std::string::npos) text.insert(0, value < 0.0 ? "-" : "+");
+    return text;
 }
 
 Row length_row(const std::string& region, const std::string& name, double on_last, double in_flat,

@@ -26,6 +26,7 @@ std::vector<NamedFaces> count_groups(const RawMesh& raw) {
         counts[{names.begin(), names.end()}] += of_label[label];
     }
     std::vector<NamedFaces> groups;
+    groups.reserve(counts.size());
     for (const auto& [names, triangles] : counts) groups.push_back({names, triangles});
     return groups;
 }

@@ -120,6 +120,7 @@ std::vector<Warning> left_out_pieces(const SurfaceMesh& surface, const Curves& c
                      [](const LeftOut& a, const LeftOut& b) { return a.area > b.area; });
     if (pieces.size() > most_told) pieces.resize(most_told);
     std::vector<Warning> warnings;
+    warnings.reserve(pieces.size());
     for (const LeftOut& piece : pieces) {
         warnings.push_back({"piece_left_out",
                             "a piece of " + fixed_text(piece.area / 100.0, 1) + " cm2 by " +

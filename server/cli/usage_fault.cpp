@@ -39,7 +39,9 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& error) {
     }
     const std::vector<std::string> commands = commands_of(*command);
     const std::string help = "; see lastflat " + path + (path.empty() ? "" : " ") + "--help";
-    for (const std::string& word : app.remaining(true)) {
+    const std::vector<std::string> unknown = app.remaining(true);
+    if (!unknown.empty()) {
+        const std::string& word = unknown.front();
         if (word.rfind('-', 0) == 0) {
             const std::string name = word.substr(0, word.find('='));
             const std::string nearest = api::suggestion(name, options_of(*command));
