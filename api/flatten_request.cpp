@@ -192,6 +192,18 @@ void read_geometry(ObjectReader& reader, const RequestLimits& limits, Request& r
     }
 }
 
+/// The fan, and one shading at most.
+void read_draw(const Field& field, Request& request) {
+    bool is_shaded = false;
+    for (const Field& item : field.items(2)) {
+        const auto shading = item.choice(draw_words);
+        if (shading ? is_shaded : request.draw_fan)
+            item.fail(shading ? "only one quantity can be shown by colour" : "stands here twice");
+        if (shading) request.shading = *shading;
+        (shading ? is_shaded : request.draw_fan) = true;
+    }
+}
+
 bool weighs(const DistortionWeights& weights) {
     return !weights.even() || !weights.zones.empty();
 }
@@ -215,10 +227,7 @@ FlattenRequest read_flatten_request(const Field& field, const RequestLimits& lim
             (void)arrangement->choice(arrangements);
         inner.finish();
     }
-    if (const auto draw = reader.find("draw")) {
-        constexpr Word<bool> drawings[]{{"fan", true}};
-        for (const Field& item : draw->items(limits.list)) asked.draw_fan = item.choice(drawings);
-    }
+    if (const auto draw = reader.find("draw")) read_draw(*draw, asked);
     if (const auto tag = reader.find("tag")) request.tag = tag->text(256);
     reader.finish();
     return request;

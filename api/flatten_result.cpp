@@ -8,6 +8,7 @@
 #include "api/json.h"
 #include "api/problem_of.h"
 #include "api/request_words.h"
+#include "api/result_words.h"
 #include "core/constrain/constraint.h"
 #include "core/result.h"
 
@@ -18,33 +19,46 @@ double degrees(double radians) {
     return radians * 180.0 / std::numbers::pi;
 }
 
-constexpr Word<Verdict> verdict_words[]{
-    {"pass", Verdict::pass}, {"warn", Verdict::warn}, {"fail", Verdict::fail}};
+Json report_json(const ZoneReport& zone) {
+    return {{"name", word_of(zone_words, zone.zone)},
+            {"length_3d_mm", zone.length_3d_mm},
+            {"length_2d_mm", zone.length_2d_mm},
+            {"ease_mm", zone.length_2d_mm - zone.length_3d_mm},
+            {"ease_percent", ease_percent(zone.length_3d_mm, zone.length_2d_mm)}};
+}
 
 Json report_json(const CurveReport& c) {
-    return {{"name", c.name},
-            {"locked", c.locked},
-            {"length_3d_mm", c.length_3d_mm},
-            {"length_2d_mm", c.length_2d_mm},
-            {"error_mm", c.error_mm},
-            {"worst_edge_error_mm", c.worst_edge_error_mm},
-            {"verdict", word_of(verdict_words, c.verdict)}};
+    Json json{{"name", c.name},
+              {"locked", c.locked},
+              {"length_3d_mm", c.length_3d_mm},
+              {"length_2d_mm", c.length_2d_mm},
+              {"error_mm", c.error_mm},
+              {"worst_edge_error_mm", c.worst_edge_error_mm}};
+    if (c.verdict) {
+        json["verdict"] = word_of(verdict_words, *c.verdict);
+    } else {
+        json["ease_mm"] = c.error_mm;
+        json["ease_percent"] = ease_percent(c.length_3d_mm, c.length_2d_mm);
+    }
+    for (const ZoneReport& zone : c.zones) json["zones"].push_back(report_json(zone));
+    return json;
 }
 
 Json report_json(const Metrics& m) {
-    return {{"stretch_l2", m.stretch_l2},
-            {"stretch_linf", m.stretch_linf},
-            {"stretch_l2_normalised", m.stretch_l2_normalised},
-            {"stretch_linf_normalised", m.stretch_linf_normalised},
-            {"symmetric_dirichlet", m.symmetric_dirichlet},
-            {"angle_distortion", m.angle_distortion},
-            {"area_3d_mm2", m.area_3d_mm2},
-            {"area_2d_mm2", m.area_2d_mm2},
-            {"area_error", m.area_error},
-            {"area_error_p95", m.area_error_p95},
-            {"area_verdict", word_of(verdict_words, m.area_verdict)},
-            {"flipped_triangles", m.flipped_triangles},
-            {"border_crossings", m.border_crossings}};
+    Json json{{"stretch_l2", m.stretch_l2},
+              {"stretch_linf", m.stretch_linf},
+              {"stretch_l2_normalised", m.stretch_l2_normalised},
+              {"stretch_linf_normalised", m.stretch_linf_normalised},
+              {"symmetric_dirichlet", m.symmetric_dirichlet},
+              {"angle_distortion", m.angle_distortion},
+              {"area_3d_mm2", m.area_3d_mm2},
+              {"area_2d_mm2", m.area_2d_mm2},
+              {"area_error", m.area_error},
+              {"area_error_p95", m.area_error_p95},
+              {"flipped_triangles", m.flipped_triangles},
+              {"border_crossings", m.border_crossings}};
+    if (m.area_verdict) json["area_verdict"] = word_of(verdict_words, *m.area_verdict);
+    return json;
 }
 
 Json or_null(double bound) {
@@ -63,9 +77,7 @@ Json report_json(const ConstraintReport& report, const Constraint& constraint) {
             {"reached", report.reached},
             {"residual_mm", report.residual_mm},
             {"position", json_of(report.position)},
-            {"verdict", report.kept      ? "pass"
-                        : report.relaxed ? "relaxed"
-                                         : "fail"}};
+            {"verdict", verdict_word(report)}};
 }
 
 Json report_json(const StretchPercentiles& p) {
@@ -81,8 +93,9 @@ Json report_json(const StretchReport& s) {
     }
     Json json{{"larger_percent", report_json(s.larger)},
               {"smaller_percent", report_json(s.smaller)},
+              {"area_percent", report_json(s.area)},
               {"most_stretched_percent", s.most_stretched_percent},
-              {"most_compressed_percent", s.most_compressed_percent},
+              {"most_gathered_percent", s.most_gathered_percent},
               {"worst", std::move(worst)}};
     if (s.material_verdict) {
         json["beyond_material"] = s.beyond_material;
@@ -265,6 +278,20 @@ Json layout_json(const FlattenResult& result) {
             {"placements", std::move(placements)}};
 }
 
+Json points_json(const FlattenResult& result) {
+    Json points = Json::array();
+    for (const FeatherlineSide& side : result.featherlines) {
+        for (const ZoneEnd& end : side.ends) {
+            points.push_back({{"name", end.name},
+                              {"region", result.regions[side.region].region.name},
+                              {"position", json_of(end.position)},
+                              {"share", end.share},
+                              {"given", end.given}});
+        }
+    }
+    return points;
+}
+
 /// Everything but the regions.
 Json rest_of(const FlattenResult& result, const std::string& version, bool with_geometry) {
     Json pairs = Json::array(), constraints = Json::array();
@@ -278,7 +305,9 @@ Json rest_of(const FlattenResult& result, const std::string& version, bool with_
     }
     for (const ConstraintReport& report : result.constraints)
         constraints.push_back(report_json(report, result.asked[report.constraint]));
-    Json document{{"pairs", std::move(pairs)}, {"constraints", std::move(constraints)}};
+    Json document{{"pairs", std::move(pairs)},
+                  {"constraints", std::move(constraints)},
+                  {"points", points_json(result)}};
     if (with_geometry) document["layout"] = layout_json(result);
     document["warnings"] = json_of(result.warnings);
     document["repairs"] = json_of(result.repairs);

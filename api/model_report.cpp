@@ -21,8 +21,8 @@ static Json region_json(const InspectedRegion& r) {
 
 static Json file_json(const Inspection& found) {
     Json groups = Json::array();
-    for (const auto& [name, triangles] : found.groups)
-        groups.push_back({{"name", name}, {"triangles", triangles}});
+    for (const NamedFaces& group : found.groups)
+        groups.push_back({{"names", group.names}, {"triangles", group.triangles}});
     return {{"vertices", found.file_vertices},
             {"triangles", found.file_triangles},
             {"groups", std::move(groups)},

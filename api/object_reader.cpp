@@ -127,11 +127,17 @@ std::optional<Field> ObjectReader::find(const std::string& name) {
 
 void ObjectReader::finish() const {
     for (const auto& [name, member] : field_.value.items()) {
-        if (known_.count(name) > 0) continue;
-        std::string list;
-        for (const auto& word : known_) list += (list.empty() ? "" : ", ") + word;
-        throw InvalidRequest(step(field_.pointer, name), "unknown field; known here: " + list);
+        if (known_.count(name) == 0) fail_unknown(name);
     }
+}
+
+void ObjectReader::fail_unknown(const std::string& name) const {
+    std::string list;
+    for (const auto& word : known_) list += (list.empty() ? "" : ", ") + word;
+    const std::string nearest = suggestion(name, {known_.begin(), known_.end()});
+    throw InvalidRequest(
+        step(field_.pointer, name),
+        "unknown field" + nearest + (nearest.empty() ? "; known" : " Known") + " here: " + list);
 }
 
 }  // namespace lastflat::api

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "api/nearest_name.h"
 #include "api/refusal.h"
 #include "api/words.h"
 
@@ -50,11 +51,12 @@ struct Field {
     /// What one of the table's words stands for.
     template <class Value, std::size_t size>
     [[nodiscard]] Value choice(const Word<Value> (&table)[size]) const {
-        if (value.is_string()) {
-            const auto found = value_of(table, value.get_ref<const std::string&>());
-            if (found) return *found;
-        }
-        fail("must be one of: " + listed(table));
+        if (!value.is_string()) fail("must be one of: " + listed(table));
+        const auto& word = value.get_ref<const std::string&>();
+        if (const auto found = value_of(table, word)) return *found;
+        std::vector<std::string> words;
+        for (const auto& line : table) words.emplace_back(line.word);
+        fail("must be one of: " + listed(table) + suggestion(word, words));
     }
 };
 
@@ -68,6 +70,8 @@ public:
     [[nodiscard]] const Field& field() const { return field_; }
 
 private:
+    [[noreturn]] void fail_unknown(const std::string& name) const;
+
     Field field_;
     std::set<std::string> known_;
 };

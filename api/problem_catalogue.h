@@ -117,6 +117,7 @@ inline constexpr CataloguedProblem problem_catalogue[] = {
     {"server_busy", 503},
     {"version_not_supported", 505},
     // Of the command line alone
+    {"arguments_invalid", 400},
     {"file_unreadable", 404},
     {"file_unwritable", 500},
 };

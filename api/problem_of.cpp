@@ -42,6 +42,7 @@ constexpr Hint hints[] = {
     {ErrorCode::method_failed, "/method", "; use the method \"isometric\", which never folds"},
 };
 constexpr Word<const char*> warning_hints[] = {
+    {"piece_left_out", "; name it in \"regions\" if it is wanted"},
     {"seam_added", ", or keep it with \"holes\": \"keep\""},
     {"unit_assumed", ". Send \"units\" to be sure"},
     {"size_unusual", ". Send \"units\" to be sure"}};

@@ -37,6 +37,11 @@ inline constexpr Word<HoleRule> hole_words[]{
 
 inline constexpr Word<Keep> keep_words[]{{"edges", Keep::edges}, {"total", Keep::total}};
 
+/// What the drawing shows: the fan (no value), or a quantity by colour.
+inline constexpr Word<std::optional<Shading>> draw_words[]{
+    {"fan", std::nullopt},       {"area", Shading::area},   {"stretch", Shading::stretch},
+    {"gather", Shading::gather}, {"shear", Shading::shear}, {"plain", Shading::plain}};
+
 inline constexpr Word<OnConflict> conflict_words[]{{"fail", OnConflict::fail},
                                                    {"relax", OnConflict::relax}};
 

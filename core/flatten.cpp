@@ -130,17 +130,26 @@ void report_constraints(const std::vector<Region>& regions, const std::vector<Ch
         check_constraints_kept(result.constraints, result.asked, result.warnings);
 }
 
-/// One region of the result, measured and found sound.
+std::optional<FeatherlineSide> side_of(const FlattenResult& result, std::size_t region) {
+    for (const FeatherlineSide& side : result.featherlines) {
+        if (side.region == region) return side;
+    }
+    return std::nullopt;
+}
+
+/// The next region of the result, measured and found sound.
 FlatRegion certified(Region region, Chart chart, const Minimum& minimum,
                      std::optional<GeodesicFan> fan, FlattenResult& result) {
     const Request& request = result.plan.request;
-    FlatRegion flat{{},
-                    {},
-                    trace_outline(region, chart),
-                    measure_distortion(region, chart.uv),
-                    measure_curves(region, chart.uv, result.asked),
-                    measure_stretch(region, chart.uv, request.material),
-                    minimum.iterations};
+    FlatRegion flat{
+        {},
+        {},
+        trace_outline(region, chart),
+        measure_distortion(region, chart.uv),
+        measure_curves(region, chart.uv, result.asked, side_of(result, result.regions.size())),
+        measure_stretch(region, chart.uv, request.material),
+        minimum.iterations};
+    flat.metrics.area_verdict = area_verdict(region, flat.metrics, result.asked);
     check_result(region, chart.uv, request.method.name, flat.metrics, result.warnings);
     if (request.method.name == MethodName::isometric)
         check_distortion(region, flat.metrics, flat.stretch, result.plan.landmarks.has_value(),
@@ -159,6 +168,7 @@ FlatRegion certified(Region region, Chart chart, const Minimum& minimum,
 FlattenResult measured(Prepared prepared, Solution solution, double layout_gap_mm) {
     FlattenResult result;
     result.plan = std::move(prepared.plan);
+    result.featherlines = std::move(prepared.featherlines);
     result.asked = std::move(prepared.constraints);
     result.warnings = std::move(prepared.warnings);
     result.added_vertices = std::move(prepared.added_vertices);

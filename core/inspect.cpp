@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "core/cut/open_holes.h"
-#include "core/prepare.h"
 
 namespace lastflat {
 namespace {

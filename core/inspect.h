@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/plan/plan.h"
+#include "core/prepare.h"
 
 namespace lastflat {
 
@@ -31,8 +32,8 @@ struct InspectedRegion {
 
 struct Inspection {
     std::size_t file_vertices = 0, file_triangles = 0;
-    std::vector<std::pair<std::string, std::size_t>> groups;  ///< names, triangles; of the file
-    double unit_mm = 1.0;                                     ///< one unit of the model
+    std::vector<NamedFaces> groups;  ///< every triangle of the file is in one
+    double unit_mm = 1.0;            ///< one unit of the model
     // Of the surface: the faces that take part, welded.
     std::size_t vertices = 0, triangles = 0, components = 0;
     double area_mm2 = 0.0;

@@ -5,6 +5,7 @@
 
 #include "core/constrain/check_constraints.h"
 #include "core/constrain/constraint_rows.h"
+#include "core/cut/left_out.h"
 #include "core/load/load_model.h"
 #include "core/plan/close_opening.h"
 #include "core/stopwatch.h"
@@ -13,17 +14,21 @@
 namespace lastflat {
 namespace {
 
-std::vector<std::pair<std::string, std::size_t>> count_groups(const RawMesh& raw) {
+/// Every triangle once, under all of its names.
+std::vector<NamedFaces> count_groups(const RawMesh& raw) {
     std::vector<std::size_t> of_label(raw.label_sets.size());
     for (const std::uint32_t label : raw.triangle_labels) ++of_label[label];
-    std::map<std::string, std::size_t> counts;
+    std::map<std::vector<std::string>, std::size_t> counts;
     for (std::size_t label = 0; label < of_label.size(); ++label) {
         if (of_label[label] == 0) continue;
-        const std::set<std::string> groups(raw.label_sets[label].begin(),
-                                           raw.label_sets[label].end());
-        for (const std::string& group : groups) counts[group] += of_label[label];
+        const std::set<std::string> names(raw.label_sets[label].begin(),
+                                          raw.label_sets[label].end());
+        counts[{names.begin(), names.end()}] += of_label[label];
     }
-    return {counts.begin(), counts.end()};
+    std::vector<NamedFaces> groups;
+    groups.reserve(counts.size());
+    for (const auto& [names, triangles] : counts) groups.push_back({names, triangles});
+    return groups;
 }
 
 void append(std::vector<Warning>& to, const std::vector<Warning>& from) {
@@ -62,9 +67,15 @@ Prepared prepare(SurfaceMesh surface, Plan plan, Progress& progress) {
     check_constraints(prepared.constraints, cut.inserted.curves, cut.regions);
     (void)coupled_regions(cut.regions, prepared.constraints);  // refuses before the maps are made
     check_zones(plan.request.weights.zones, cut.inserted.curves, cut.regions);
+    prepared.featherlines = divide_featherlines(surface, cut.regions, plan.request.points);
     prepared.warnings = std::move(surface.warnings);
     if (plan.landmarks) append(prepared.warnings, plan.landmarks->warnings);
     append(prepared.warnings, cut.warnings);
+    if (plan.found == Plan::Found::none && !plan.request.cut.regions.empty()) {
+        std::vector<std::string> cuts = plan.request.cut.cuts;
+        cuts.insert(cuts.end(), cut.seams.begin(), cut.seams.end());
+        append(prepared.warnings, left_out_pieces(surface, cut.inserted.curves, cuts, cut.regions));
+    }
     prepared.plan = std::move(plan);
     prepared.regions = std::move(cut.regions);
     prepared.file_vertices = surface.welded_to.size() - surface.copies.size();

@@ -4,13 +4,21 @@
 #include <string_view>
 
 #include "core/cut/cut_surface.h"
+#include "core/measure/featherline.h"
 
 namespace lastflat {
 
+/// Triangles of a file that bear the same names, and no others.
+struct NamedFaces {
+    std::vector<std::string> names;  ///< ascending
+    std::size_t triangles = 0;
+    bool operator==(const NamedFaces&) const = default;
+};
+
 /// A model, read and mended.
 struct ReadModel {
-    std::size_t vertices = 0, triangles = 0;                  ///< of the file
-    std::vector<std::pair<std::string, std::size_t>> groups;  ///< names, triangles; of the file
+    std::size_t vertices = 0, triangles = 0;  ///< of the file
+    std::vector<NamedFaces> groups;           ///< every triangle of the file is in one
     SurfaceMesh surface;
     double load_ms = 0.0;
 };
@@ -24,6 +32,7 @@ struct Prepared {
     Plan plan;
     std::vector<Region> regions;
     std::vector<Constraint> constraints;  ///< the plan's, and one for every seam
+    std::vector<FeatherlineSide> featherlines;
     std::size_t file_vertices = 0;
     std::vector<Index> vertex_copies;  ///< as in `SurfaceMesh`; their ids follow those of the file
     /// Vertices that curves made, in the order of their ids, which follow those of the copies.
@@ -34,8 +43,9 @@ struct Prepared {
     double load_ms = 0.0;
 };
 
-/// Cuts the surface as planned. Constraints and zones then fit the regions.
-/// Throws: Error, as `cut_surface`, `check_constraints`, `check_zones`.
+/// Cuts the surface as planned. Constraints, zones and points of the featherline then fit the
+/// regions.
+/// Throws: Error, as `cut_surface`, `check_constraints`, `check_zones`, `divide_featherlines`.
 [[nodiscard]] Prepared prepare(SurfaceMesh surface, Plan plan, Progress& progress);
 
 /// All of it: `read_model`, `make_plan`, and the above.

@@ -19,6 +19,12 @@ inline constexpr const char *toe = "toe", *instep = "instep";
 inline constexpr const char* heel = "heel";  ///< the back curve
 inline constexpr const char *featherline = "featherline", *topline = "topline";
 }  // namespace curve_name
+/// Where zones of the featherline end towards the seat; on each side, so with the region's name
+/// behind: toe_end_lateral.
+namespace point_name {
+inline constexpr const char *toe_end = "toe_end", *joint_end = "joint_end";
+inline constexpr const char* waist_end = "waist_end";
+}  // namespace point_name
 namespace region_name {
 inline constexpr const char *lateral = "lateral", *medial = "medial";
 }  // namespace region_name
@@ -238,6 +244,15 @@ struct MethodOptions {
     AngleRule angles = AngleRule::curvature;   ///< of the border's polygon
 };
 
+/// What the colour of the drawing shows of the leather when it is lasted.
+enum class Shading {
+    area,     ///< strain of its area
+    stretch,  ///< the larger principal strain
+    gather,   ///< the smaller principal strain
+    shear,    ///< the most that a right angle changes
+    plain,    ///< nothing: no colour
+};
+
 /// What the shoe-maker asks of one pattern.
 struct Request {
     WeldOptions weld;
@@ -249,7 +264,8 @@ struct Request {
     DistortionWeights weights;               ///< of `isometric`
     std::optional<MaterialLimits> material;  ///< judged, not enforced
     MethodOptions method;
-    bool draw_fan = false;  ///< the geodesic fan in the drawing
+    Shading shading = Shading::area;  ///< of the drawing
+    bool draw_fan = false;            ///< the geodesic fan in the drawing
 };
 
 /// A request, and how it is run.

@@ -29,6 +29,7 @@ struct Timing {
 struct FlattenResult {
     Plan plan;  ///< that was run
     std::vector<FlatRegion> regions;
+    std::vector<FeatherlineSide> featherlines;  ///< whose zones are known
     std::vector<PairReport> pairs;
     std::vector<Constraint> asked;              ///< by the plan, and of every seam
     std::vector<ConstraintReport> constraints;  ///< of what was asked

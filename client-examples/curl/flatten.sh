@@ -84,15 +84,17 @@ for format in json:result.json svg:pattern.svg glb:flat.glb; do
     mv -- "$temporary/result" "$out/${format#*:}"
 done
 
-row='%-16s %-16s %10s %10s %10s  %-6s  %s\n'
+echo "flat - last: above 0 a curve is gathered when it is lasted, below 0 stretched"
+row='%-16s %-16s %10s %10s %14s %8s  %s\n'
 # shellcheck disable=SC2059
-printf "$row" region curve "last mm" "flat mm" "error mm" locked verdict
-jq -r '.regions[] | .name as $region | .curves[] | [$region, .name, .length_3d_mm, .length_2d_mm, .error_mm,
-       (if .locked then "yes" else "no" end), .verdict] | @tsv' "$out/result.json" |
-    while IFS=$'\t' read -r region curve length_3d length_2d error locked verdict; do
+printf "$row" region curve "last mm" "flat mm" "flat - last mm" % verdict
+jq -r '.regions[] | .name as $region | .curves[] | (., (.zones // [])[] + {zone: true})
+       | [$region, (if .zone then "- " else "" end) + .name, .length_3d_mm, .length_2d_mm,
+          .error_mm // .ease_mm, .ease_percent // 0, .verdict // "-"] | @tsv' "$out/result.json" |
+    while IFS=$'\t' read -r region curve length_3d length_2d difference percent verdict; do
         # shellcheck disable=SC2059
         printf "$row" "$region" "$curve" "$(places 3 "$length_3d")" "$(places 3 "$length_2d")" \
-            "$(places 6 "$error")" "$locked" "$verdict"
+            "$(places 6 "$difference")" "$(places 3 "$percent")" "$verdict"
     done
 jq -r '.pairs[] | [.a, .b, .curve, .difference_mm, .verdict] | @tsv' "$out/result.json" |
     while IFS=$'\t' read -r a b curve difference verdict; do

@@ -92,12 +92,16 @@ def main(last, request=None):
         (folder / name).write_bytes(content)
 
     result = json.loads(files["result.json"])
-    row = "{:16} {:16} {:>10} {:>10} {:>10}  {:6}  {}"
-    print(row.format("region", "curve", "last mm", "flat mm", "error mm", "locked", "verdict"))
+    print("flat - last: above 0 a curve is gathered when it is lasted, below 0 stretched")
+    row = "{:16} {:16} {:>10} {:>10} {:>14} {:>8}  {}"
+    print(row.format("region", "curve", "last mm", "flat mm", "flat - last mm", "%", "verdict"))
     for region in result["regions"]:
         for c in region["curves"]:
-            print(row.format(region["name"], c["name"], places(3, c["length_3d_mm"]), places(3, c["length_2d_mm"]),
-                             places(6, c["error_mm"]), "yes" if c["locked"] else "no", c["verdict"]))
+            for name, part in [(c["name"], c)] + [("- " + zone["name"], zone) for zone in c.get("zones", [])]:
+                on_last, in_flat = part["length_3d_mm"], part["length_2d_mm"]
+                print(row.format(region["name"], name, places(3, on_last), places(3, in_flat),
+                                 places(6, in_flat - on_last), places(3, part.get("ease_percent", 0)),
+                                 part.get("verdict", "-")))
     for p in result["pairs"]:
         print(f"pair {p['curve']}: {p['a']} and {p['b']} differ by {places(6, p['difference_mm'])} mm  {p['verdict']}")
     for warning in result["warnings"]:

@@ -31,21 +31,12 @@ Lengths lengths_of(const Region& region, const Points2& uv, const std::vector<In
     return sum;
 }
 
-Verdict graded(double value, double pass, double warn) {
-    return value <= pass ? Verdict::pass : value <= warn ? Verdict::warn : Verdict::fail;
-}
-
-/// Locked: kept or not. The topline gapes by millimetres; every other edge is lasted and may be
-/// pleated by a share of its length.
-Verdict verdict_on(const std::string& curve, const Lock* lock, const Lengths& lengths) {
-    const double error = std::abs(lengths.flat - lengths.in_space);
-    if (lock != nullptr) {
-        const double relative =
-            lock->keep == Keep::edges ? lengths.worst_edge_relative : error / lengths.in_space;
-        return relative <= tolerance::locked_length ? Verdict::pass : Verdict::fail;
-    }
-    if (curve == curve_name::topline) return graded(error, 0.5, 1.5);
-    return graded(error / lengths.in_space, 0.01, 0.02);
+std::optional<Verdict> verdict_on(const Lock* lock, const Lengths& lengths) {
+    if (lock == nullptr) return std::nullopt;
+    const double relative = lock->keep == Keep::edges
+                                ? lengths.worst_edge_relative
+                                : std::abs(lengths.flat - lengths.in_space) / lengths.in_space;
+    return relative <= tolerance::locked_length ? Verdict::pass : Verdict::fail;
 }
 
 const Lock* lock_on(const std::string& curve, const std::string& region,
@@ -88,14 +79,17 @@ std::optional<PairReport> unequal_runs(const std::vector<Region>& regions,
 }  // namespace
 
 std::vector<CurveReport> measure_curves(const Region& region, const Points2& uv,
-                                        const std::vector<Constraint>& constraints) {
+                                        const std::vector<Constraint>& constraints,
+                                        const std::optional<FeatherlineSide>& side) {
     std::vector<CurveReport> reports;
     for (const CurveRun& run : region.runs) {
         const Lengths lengths = lengths_of(region, uv, run.vertices);
         const Lock* lock = lock_on(run.curve, region.name, constraints);
         reports.push_back({run.curve, lock != nullptr, lengths.in_space, lengths.flat,
                            lengths.flat - lengths.in_space, lengths.worst_edge,
-                           verdict_on(run.curve, lock, lengths)});
+                           verdict_on(lock, lengths)});
+        if (side && lock == nullptr && run.curve == curve_name::featherline)
+            reports.back().zones = measure_zones(*side, region, uv, run);
     }
     return reports;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/constrain/constraint.h"
 #include "core/measure/report.h"
 #include "core/measure/stretch.h"
 
@@ -19,10 +20,6 @@ double weighted_quantile(std::vector<std::pair<double, double>> values, double s
         if (sum >= share * total) return value;
     }
     return values.back().first;
-}
-
-Verdict area_verdict(double error) {
-    return error <= 0.005 ? Verdict::pass : error <= 0.015 ? Verdict::warn : Verdict::fail;
 }
 
 }  // namespace
@@ -51,19 +48,22 @@ Metrics measure_distortion(const Region& region, const Points2& uv) {
     m.angle_distortion = angle / m.area_3d_mm2;
     m.area_error = std::abs(m.area_2d_mm2 - m.area_3d_mm2) / m.area_3d_mm2;
     m.area_error_p95 = weighted_quantile(std::move(area_errors), 0.95);
-    m.area_verdict = area_verdict(m.area_error);
     m.border_crossings = static_cast<Index>(border_crossings(region, uv).size());
     return m;
 }
 
-std::vector<double> signed_stretches(const Region& region, const Points2& uv) {
-    std::vector<double> stretches;
-    for (const Triangle& t : region.triangles) {
-        const Stretch s = stretch_of(region, uv, t);
-        const double larger = 1.0 / s.g, smaller = 1.0 / s.G;
-        stretches.push_back(larger * smaller >= 1.0 ? larger : smaller);
+std::optional<Verdict> area_verdict(const Region& region, const Metrics& metrics,
+                                    const std::vector<Constraint>& constraints) {
+    const double percent = 100.0 * (metrics.area_2d_mm2 / metrics.area_3d_mm2 - 1.0);
+    std::optional<double> beyond;
+    for (const Constraint& constraint : constraints) {
+        const auto* asked = std::get_if<TotalArea>(&constraint.demand);
+        if (asked == nullptr || !binds(asked->region, region)) continue;
+        beyond = std::max(
+            {beyond.value_or(0.0), percent - asked->max_percent, asked->min_percent - percent});
     }
-    return stretches;
+    if (!beyond) return std::nullopt;
+    return *beyond <= 0.5 ? Verdict::pass : *beyond <= 1.5 ? Verdict::warn : Verdict::fail;
 }
 
 }  // namespace lastflat

@@ -65,7 +65,7 @@ std::vector<WorstStrain> worst_strains(const Region& region, std::vector<Leather
 StretchReport measure_stretch(const Region& region, const Points2& uv,
                               const std::optional<MaterialLimits>& material) {
     std::vector<Leather> leather;
-    std::vector<std::pair<double, double>> larger, smaller;
+    std::vector<std::pair<double, double>> larger, smaller, area;
     StretchReport report{};
     double total = 0.0, beyond = 0.0;
     for (std::size_t i = 0; i < region.triangles.size(); ++i) {
@@ -74,15 +74,17 @@ StretchReport measure_stretch(const Region& region, const Points2& uv,
         leather.push_back(l);
         larger.emplace_back(l.larger, l.area);
         smaller.emplace_back(l.smaller, l.area);
+        area.emplace_back(100.0 * (s.G * s.g - 1.0), l.area);
         total += l.area;
         report.most_stretched_percent = std::max(report.most_stretched_percent, l.larger);
-        report.most_compressed_percent = std::max(report.most_compressed_percent, -l.smaller);
+        report.most_gathered_percent = std::min(report.most_gathered_percent, l.smaller);
         if (material && (l.larger > material->stretch_max_percent ||
                          -l.smaller > material->compress_max_percent))
             beyond += l.area;
     }
     report.larger = percentiles(std::move(larger), total);
     report.smaller = percentiles(std::move(smaller), total);
+    report.area = percentiles(std::move(area), total);
     report.worst = worst_strains(region, std::move(leather), total);
     if (material) {
         report.beyond_material = beyond / total;

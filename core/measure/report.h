@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/measure/featherline.h"
 #include "core/parameterize/chart.h"
 #include "core/request.h"
 
@@ -21,19 +22,26 @@ struct Metrics {
     double area_3d_mm2, area_2d_mm2;
     double area_error;      ///< |2D - 3D| / 3D
     double area_error_p95;  ///< 95 % of the surface has less
-    Verdict area_verdict;
     Index flipped_triangles;
     Index border_crossings;
+    std::optional<Verdict> area_verdict{};  ///< where a total area is asked
 };
 
 struct CurveReport {
     std::string name;
     bool locked;
     double length_3d_mm, length_2d_mm;
-    double error_mm;             ///< 2D minus 3D
-    double worst_edge_error_mm;  ///< largest |2D - 3D| of one edge
-    Verdict verdict;
+    double error_mm;                   ///< 2D minus 3D; of a curve that is not locked its ease
+    double worst_edge_error_mm;        ///< largest |2D - 3D| of one edge
+    std::optional<Verdict> verdict{};  ///< of its lock; what nobody locks has none
+    std::vector<ZoneReport> zones{};   ///< of a featherline that nobody locks
 };
+
+/// Flat minus last, in percent of the last: above 0 the curve is gathered when it is lasted, below
+/// 0 stretched.
+[[nodiscard]] inline double ease_percent(double length_3d_mm, double length_2d_mm) {
+    return 100.0 * (length_2d_mm - length_3d_mm) / length_3d_mm;
+}
 
 /// The two flat sides of one curve, to be sewn together.
 struct PairReport {
@@ -67,10 +75,13 @@ struct WorstStrain {
 };
 
 /// What happens to the leather when the flat piece is lasted: along its two principal directions it
-/// is stretched (above 0) where the pattern is smaller than the last, compressed where larger.
+/// is stretched (above 0) where the pattern is smaller than the last, gathered (below 0) where it
+/// is larger.
 struct StretchReport {
     StretchPercentiles larger, smaller;
-    double most_stretched_percent, most_compressed_percent;
+    StretchPercentiles area;         ///< strain of the leather's area
+    double most_stretched_percent;   ///< 0 or more
+    double most_gathered_percent;    ///< 0 or less
     std::vector<WorstStrain> worst;  ///< ten at most, apart from each other, the worst first
     double beyond_material = 0.0;    ///< share of the area outside the limits
     std::optional<Verdict> material_verdict{};  ///< pass: none; warn: up to 1 % of the area
@@ -79,9 +90,15 @@ struct StretchReport {
 /// Paper: stretch [sander-2001]; the rest reading of [kim-kim], section 4.
 [[nodiscard]] Metrics measure_distortion(const Region& region, const Points2& uv);
 
+/// By how far the area lies beyond what a constraint asks: pass up to 0.5 % of the surface's, warn
+/// up to 1.5 %. Nothing: no constraint asks.
+[[nodiscard]] std::optional<Verdict> area_verdict(const Region& region, const Metrics& metrics,
+                                                  const std::vector<Constraint>& constraints);
+
 /// One entry per run of a named curve.
-[[nodiscard]] std::vector<CurveReport> measure_curves(const Region& region, const Points2& uv,
-                                                      const std::vector<Constraint>& constraints);
+[[nodiscard]] std::vector<CurveReport> measure_curves(
+    const Region& region, const Points2& uv, const std::vector<Constraint>& constraints,
+    const std::optional<FeatherlineSide>& side = std::nullopt);
 
 /// One entry per constraint and run or region that it binds.
 [[nodiscard]] std::vector<ConstraintReport> measure_constraints(
@@ -95,9 +112,5 @@ struct StretchReport {
 /// regions share, but one has more of.
 [[nodiscard]] std::vector<PairReport> measure_pairs(const std::vector<Region>& regions,
                                                     const std::vector<Chart>& charts);
-
-/// Per triangle, the principal stretch surface -> plane that is further from 1 (above: larger in
-/// the flat).
-[[nodiscard]] std::vector<double> signed_stretches(const Region& region, const Points2& uv);
 
 }  // namespace lastflat

@@ -1,13 +1,16 @@
 #include "server/cli/commands.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <thread>
 
 #include "api/flatten_request.h"
 #include "api/model_report.h"
+#include "api/nearest_name.h"
 #include "api/problem_of.h"
 #include "api/refusal.h"
+#include "api/result_table.h"
 #include "api/sample_request.h"
 #include "core/export/write_model.h"
 #include "core/inspect.h"
@@ -21,24 +24,40 @@ namespace fs = std::filesystem;
 
 constexpr int indent = 2;
 
-/// The exit code of a command; what it throws becomes a problem document on standard error.
+/// The exit code of a command.
 template <class Command>
-int reported(const Command& command) {
+int reported(Audience audience, const Command& command) {
     try {
         command();
         return 0;
     } catch (...) {
-        const api::Problem problem = api::problem_of(std::current_exception());
-        std::cerr << api::to_json(problem) << std::endl;
-        return problem.is_bad_input() ? 2 : 1;
+        return complain(api::problem_of(std::current_exception()), audience);
     }
+}
+
+std::vector<std::string> files_beside(const fs::path& path) {
+    std::vector<std::string> names;
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error))
+        names.push_back(entry->path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
 }
 
 std::string file_bytes(const fs::path& path, const std::string& what) {
     std::error_code error;
     std::ifstream file;
     if (!fs::is_directory(path, error)) file.open(path, std::ios::binary);
-    if (!file.is_open()) api::refuse("file_unreadable", "cannot read " + what + path.string());
+    if (!file.is_open()) {
+        api::refuse("file_unreadable",
+                    "cannot read " + what + path.string() +
+                        (fs::exists(path, error)
+                             ? ""
+                             : ": there is no such file" +
+                                   api::suggestion(path.filename().string(), files_beside(path))));
+    }
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
@@ -77,15 +96,16 @@ JobInput read_input(const fs::path& model, const std::optional<fs::path>& reques
 
 }  // namespace
 
-int inspect_command(const fs::path& model, const std::optional<fs::path>& request) {
-    return reported([&] {
+int inspect_command(const fs::path& model, const std::optional<fs::path>& request,
+                    Audience audience) {
+    return reported(audience, [&] {
         const JobInput input = read_input(model, request);
         std::cout << api::to_json(inspect(input.model, input.options), indent) << std::endl;
     });
 }
 
-int map_command(const fs::path& flat_obj, const fs::path& points) {
-    return reported([&] {
+int map_command(const fs::path& flat_obj, const fs::path& points, Audience audience) {
+    return reported(audience, [&] {
         const std::string pieces = file_bytes(flat_obj, ""), request = file_bytes(points, "");
         std::cout << api::to_json(map_job(pieces, api::map_request_from_json(request)), indent)
                   << std::endl;
@@ -93,21 +113,31 @@ int map_command(const fs::path& flat_obj, const fs::path& points) {
 }
 
 int flatten_command(const fs::path& model, const std::optional<fs::path>& request,
-                    const fs::path& directory) {
-    return reported([&] {
+                    const fs::path& directory, Audience audience) {
+    return reported(audience, [&] {
         JobInput input = read_input(model, request);
         input.options.threads = std::max(1u, std::thread::hardware_concurrency());
         Progress progress;
-        const JobOutput output = run_job(input, Compression::none, progress);
-        write_files(directory, {{"result.json", output.json.bytes},
-                                {"flat.obj", output.obj.bytes},
-                                {"flat.glb", output.glb.bytes},
-                                {"pattern.svg", output.svg.bytes}});
+        const FlattenResult result = flatten(input.model, input.options, progress);
+        const JobOutput output = render(result, Compression::none);
+        const Files files{{"result.json", output.json.bytes},
+                          {"flat.obj", output.obj.bytes},
+                          {"flat.glb", output.glb.bytes},
+                          {"pattern.svg", output.svg.bytes}};
+        write_files(directory, files);
+        if (audience == Audience::programs) {
+            std::cout << output.metrics.bytes << std::endl;
+            return;
+        }
+        std::cout << api::to_table(result) << "written to " << directory.string() << ":";
+        for (const auto& [name, bytes] : files) std::cout << " " << name;
+        std::cout << std::endl;
     });
 }
 
-int sample_last_command(const SampleLastOptions& options, const fs::path& directory) {
-    return reported([&] {
+int sample_last_command(const SampleLastOptions& options, const fs::path& directory,
+                        Audience audience) {
+    return reported(audience, [&] {
         const SampleLast last = make_sample_last(options);
         const std::string obj = write_model_obj(last.mesh), glb = write_model_glb(last.mesh),
                           request = api::sample_request(last);

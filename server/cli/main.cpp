@@ -1,13 +1,16 @@
 // The program: `serve`, `flatten`, `sample-last`, and what operators need.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <iostream>
 #include <map>
 
 #include "api/job.h"
+#include "api/nearest_name.h"
 #include "server/cli/commands.h"
 #include "server/cli/operator_commands.h"
 #include "server/cli/serve.h"
+#include "server/cli/usage_fault.h"
 #include "server/support/duration.h"
 #include "server/support/flat_memory.h"
 #include "server/support/version.h"
@@ -36,6 +39,24 @@ server::Address address_of(const std::string& option, const std::string& text) {
     if (host.size() > 2 && host.front() == '[' && host.back() == ']')
         address.host = host.substr(1, host.size() - 2);
     return address;
+}
+
+/// A word that stands for a value of an enum.
+template <class Value>
+CLI::Validator one_of(const std::map<std::string, Value>& values) {
+    const auto read = [values](std::string& text) -> std::string {
+        const auto found = values.find(text);
+        std::vector<std::string> words;
+        std::string list;
+        for (const auto& [word, value] : values) {
+            words.push_back(word);
+            list += (list.empty() ? "" : ", ") + word;
+        }
+        if (found == values.end()) return "must be one of: " + list + api::suggestion(text, words);
+        text = std::to_string(static_cast<int>(found->second));
+        return {};
+    };
+    return CLI::Validator(read, "");
 }
 
 struct Arguments {
@@ -114,7 +135,7 @@ CLI::App* add_serve(CLI::App& app, Arguments& a) {
         {"any", server::WebhookTargets::anywhere}};
     options
         .add("webhooks", s.webhooks, "Where webhooks may go: off, public (no private address), any")
-        ->transform(CLI::CheckedTransformer(targets))
+        ->transform(one_of(targets))
         ->default_str("off");
     options.add("allow-origin", s.allowed_origins, "Web pages that may call (CORS), by origin");
     return serve;
@@ -152,10 +173,24 @@ std::map<const CLI::App*, std::function<int()>> add_operator_commands(CLI::App& 
     return commands;
 }
 
+/// Found anywhere among the arguments, so that it counts for those that cannot be read, too.
+constexpr char json_flag[] = "--json";
+
+void add_json(CLI::App& command) {
+    command.add_flag(json_flag)->description("Say everything as JSON, errors as problem documents");
+}
+
+server::Audience audience_of(int argc, char** argv) {
+    return std::find(argv, argv + argc, std::string_view(json_flag)) == argv + argc
+               ? server::Audience::people
+               : server::Audience::programs;
+}
+
 CLI::App* add_inspect(CLI::App& app, Arguments& a) {
     auto* inspect = app.add_subcommand("inspect", "Say what a model is and what is wrong with it");
     inspect->add_option("MODEL", a.model, "The last: OBJ, STL, PLY, glTF or GLB")->required();
     inspect->add_option("--request", a.request, "The constraint JSON; default: every default");
+    add_json(*inspect);
     return inspect;
 }
 
@@ -166,6 +201,7 @@ CLI::App* add_map(CLI::App& app, Arguments& a) {
                     "JSON: to_pattern and to_last, each with points and "
                     "polylines")
         ->required();
+    add_json(*map);
     return map;
 }
 
@@ -175,6 +211,7 @@ CLI::App* add_flatten(CLI::App& app, Arguments& a) {
     flatten->add_option("--request", a.request, "The constraint JSON; default: every default");
     flatten->add_option("--out", a.out, "Folder for result.json, flat.obj, flat.glb, pattern.svg")
         ->required();
+    add_json(*flatten);
     return flatten;
 }
 
@@ -189,9 +226,10 @@ CLI::App* add_sample_last(CLI::App& app, Arguments& a) {
     sample->add_option("--toe-spring", a.sample.toe_spring_mm, "mm")->capture_default_str();
     sample->add_option("--extra-girth", a.sample.extra_girth_mm, "mm")->capture_default_str();
     sample->add_option("--toe", a.sample.toe, "round, almond, pointed or square")
-        ->transform(CLI::CheckedTransformer(toes));
+        ->transform(one_of(toes));
     sample->add_option("--out", a.out, "Folder for last.obj, last.glb, last.request.json")
         ->required();
+    add_json(*sample);
     return sample;
 }
 
@@ -207,22 +245,24 @@ int run(int argc, char** argv) {
     const auto* map = add_map(app, a);
     const auto* sample = add_sample_last(app, a);
     const auto operator_commands = add_operator_commands(app, a);
+    const server::Audience audience = audience_of(argc, argv);
     try {
         app.parse(argc, argv);
         a.settings.listen = address_of("--listen", a.listen);
         if (!a.admin.empty()) a.settings.admin = address_of("--admin", a.admin);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+        if (error.get_exit_code() == 0) return app.exit(error);
+        return server::complain({"arguments_invalid", server::usage_fault(app, error)}, audience);
     }
     for (const auto& [command, execute] : operator_commands) {
         if (command->parsed()) return execute();
     }
     const auto request =
         a.request.empty() ? std::nullopt : std::optional<std::filesystem::path>(a.request);
-    if (flatten->parsed()) return server::flatten_command(a.model, request, a.out);
-    if (map->parsed()) return server::map_command(a.model, a.request);
-    if (inspect->parsed()) return server::inspect_command(a.model, request);
-    if (sample->parsed()) return server::sample_last_command(a.sample, a.out);
+    if (flatten->parsed()) return server::flatten_command(a.model, request, a.out, audience);
+    if (map->parsed()) return server::map_command(a.model, a.request, audience);
+    if (inspect->parsed()) return server::inspect_command(a.model, request, audience);
+    if (sample->parsed()) return server::sample_last_command(a.sample, a.out, audience);
     if (serve->parsed()) {
         server::keep_memory_flat(argv);
         server::serve(a.settings);

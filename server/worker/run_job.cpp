@@ -19,8 +19,7 @@ Rendered rendered(std::string bytes, Compression compression) {
 
 }  // namespace
 
-JobOutput run_job(const JobInput& input, Compression compression, Progress& progress) {
-    const FlattenResult result = flatten(input.model, input.options, progress);
+JobOutput render(const FlattenResult& result, Compression compression) {
     // Each format on a thread of its own: together they take about as long as a small job.
     const auto begin = [&](auto write) {
         return std::async(std::launch::async, [=] { return rendered(write(), compression); });
@@ -35,6 +34,10 @@ JobOutput run_job(const JobInput& input, Compression compression, Progress& prog
     output.obj = obj.get();
     output.glb = glb.get();
     return output;
+}
+
+JobOutput run_job(const JobInput& input, Compression compression, Progress& progress) {
+    return render(flatten(input.model, input.options, progress), compression);
 }
 
 }  // namespace lastflat::server

@@ -15,6 +15,8 @@ struct JobInput {
 
 enum class Compression { none, gzip };
 
+[[nodiscard]] JobOutput render(const FlattenResult& result, Compression compression);
+
 /// Throws: Error.
 [[nodiscard]] JobOutput run_job(const JobInput& input, Compression compression, Progress& progress);
 

@@ -41,7 +41,7 @@ const Json whole = Json::parse(R"({
                           {"vertex": 9, "within_mm": 5, "weight": 3},
                           {"vertices": [1, 2, 3], "weight": 3}]},
     "material": {"stretch_max_percent": 5, "compress_max_percent": 2},
-    "method": {"name": "isometric"}, "layout": {"arrangement": "pair"}, "draw": ["fan"],
+    "method": {"name": "isometric"}, "layout": {"arrangement": "pair"}, "draw": ["fan", "shear"],
     "tag": "order-4711"})");
 
 std::string refused_at(const std::string& text) {
@@ -164,7 +164,7 @@ TEST_SUITE("api/flatten_request") {
             {"/regions", named(64, nothing), named(65, nothing)},
             {"/weights/zones", Json(std::vector<Json>(64, zone)),
              Json(std::vector<Json>(65, zone))},
-            {"/draw", Json(std::vector<Json>(1024, "fan")), Json(std::vector<Json>(1025, "fan"))},
+            {"/draw", {"fan", "stretch"}, {"fan", "stretch", "fan"}},
             {"/curves/front/vertices", ids(1'000'000), ids(1'000'001)},
             {"/cuts/0", std::string(128, 'x'), std::string(129, 'x')},
             {"/locks/0/curve", std::string(128, 'x'), std::string(129, 'x')},

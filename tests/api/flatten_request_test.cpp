@@ -46,7 +46,7 @@ constexpr const char* everything = R"({
     "on_conflict": "relax",
     "material": {"stretch_max_percent": 5, "compress_max_percent": 2},
     "method": {"name": "geodesic_fan", "angles": "averaged_conformal"},
-    "layout": {"arrangement": "pair"}, "draw": ["fan"], "tag": "order-4711"})";
+    "layout": {"arrangement": "pair"}, "draw": ["fan", "gather"], "tag": "order-4711"})";
 
 constexpr const char* weighed = R"({
     "points": {"toe_point": {"vertex": 80}},
@@ -215,12 +215,26 @@ TEST_SUITE("api/flatten_request") {
     }
 
     TEST_CASE("an error lists what there is instead") {
-        CHECK(
-            detail_of(R"({"seem": 1})")
-                .find(
-                    "known here: constraints, curves, cuts, draw, holes, last_length_mm, layout") !=
-            std::string::npos);
+        const std::string known =
+            "nown here: constraints, curves, cuts, draw, holes, last_length_mm, layout, locks";
+        CHECK(detail_of(R"({"surfeit": 1})").find("unknown field; k" + known) == 0);
+        CHECK(detail_of(R"({"lock": []})").find("unknown field; did you mean 'locks'? K" + known) ==
+              0);
         CHECK(detail_of(R"({"units": "feet"})") == "must be one of: mm, cm, m, in");
+        CHECK(detail_of(R"({"holes": "kep"})") ==
+              "must be one of: auto, keep, open; did you mean 'keep'?");
+    }
+
+    TEST_CASE("one quantity is drawn by colour, beside the fan") {
+        const auto drawn = [](const char* text) { return flatten_request_from_json(text).asked; };
+        CHECK(drawn("{}").shading == Shading::area);
+        CHECK(drawn(R"({"draw": ["shear", "fan"]})").shading == Shading::shear);
+        CHECK(drawn(R"({"draw": ["shear", "fan"]})").draw_fan);
+        CHECK_FALSE(drawn(R"({"draw": ["plain"]})").draw_fan);
+        CHECK(pointer_of(R"({"draw": ["area", "gather"]})") == "/draw/1");
+        CHECK(pointer_of(R"({"draw": ["fan", "fan"]})") == "/draw/1");
+        CHECK(pointer_of(R"({"draw": ["fan", "area", "gather"]})") == "/draw");
+        CHECK(pointer_of(R"({"draw": ["strain"]})") == "/draw/0");
     }
 
     TEST_CASE("documents that cannot be read are refused, not guessed") {

@@ -50,14 +50,14 @@ TEST_SUITE("api/model_report") {
     TEST_CASE("a report says what the model is and why it cannot be flattened") {
         Inspection found;
         found.file_vertices = 4;
-        found.groups = {{"upper", 2}};
+        found.groups = {{{"upper", "calf"}, 2}};
         found.border_loops = {{3.5, {1, 2, 3}}};
         found.regions = {{"lateral", 3, 1, 0.5, 3.5, {}}};
         found.repairs = {{"welded", "2 vertices", 2, {{1, 2, 3}}}};
         found.warnings = {{"unit_assumed", "mm", Vec3(1, 2, 3)}};
         auto report = nlohmann::json::parse(to_json(found));
         CHECK(report["flattens"] == true);
-        CHECK(report["file"]["groups"][0]["name"] == "upper");
+        CHECK(report["file"]["groups"].dump() == R"([{"names":["upper","calf"],"triangles":2}])");
         CHECK(report["surface"]["closed"] == false);
         CHECK(report["surface"]["border_positions"].dump() == "[[1.0,2.0,3.0]]");
         CHECK(report["regions"][0]["border_mm"] == 3.5);

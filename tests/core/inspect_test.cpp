@@ -20,7 +20,7 @@ TEST_SUITE("core/inspect") {
         REQUIRE(found.border_loops.size() == 1);
         CHECK(found.border_loops[0].length_mm == doctest::Approx(60.0));
         CHECK(found.size_mm.y() == doctest::Approx(20.0));
-        CHECK(found.groups == std::vector<std::pair<std::string, std::size_t>>{{"a", 2}});
+        CHECK(found.groups == std::vector<NamedFaces>{{{"a"}, 2}});
         CHECK_FALSE(found.fault.has_value());
         REQUIRE(found.regions.size() == 1);
         CHECK(found.regions[0].border_mm == doctest::Approx(60.0));
@@ -65,9 +65,13 @@ TEST_SUITE("core/inspect") {
         CHECK(opened.warnings[0].code == "seam_added");
     }
 
-    TEST_CASE("a face that bears one name twice is counted once") {
-        const Inspection found = inspect("v 0 0 0\nv 9 0 0\nv 0 9 0\ng a\no a\nf 1 2 3\n", {});
-        CHECK(found.groups == std::vector<std::pair<std::string, std::size_t>>{{"a", 1}});
+    TEST_CASE("every face is counted once, whatever names it bears") {
+        const std::string square = "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\n";
+        const Inspection twice = inspect(square + "g a\no a\nf 1 2 3\n", {});
+        CHECK(twice.groups == std::vector<NamedFaces>{{{"a"}, 1}});
+        const Inspection shared = inspect(square + "f 1 2 3\ng b a\nf 1 3 4\ng a\nf 2 1 3 4\n", {});
+        CHECK(shared.groups == std::vector<NamedFaces>{{{}, 1}, {{"a"}, 2}, {{"a", "b"}, 1}});
+        CHECK(shared.file_triangles == 4);
     }
 
     TEST_CASE("vertices that are not shared in the file count after welding") {

@@ -18,7 +18,8 @@ check_client() {  # client, model, request
     certify "$2" "$3" out/result.json
     check_drawing out/pattern.svg out/result.json
     check_glb out/flat.glb out/result.json
-    [[ $output =~ lateral\ +heel\ +78\.710\ +78\.710\ +0\.000000\ +yes\ +pass ]] || assert_equal "$output" "a row for the heel"
+    [[ $output =~ lateral\ +heel\ +78\.710\ +78\.710\ +0\.000000\ +0\.000\ +pass ]] || assert_equal "$output" "a row for the heel"
+    [[ $output =~ medial\ +-\ joint\ +[0-9.]+\ +[0-9.]+\ +1\.[0-9]+\ +2\.[0-9]+\ +-$'\n' ]] || assert_equal "$output" "a row for the joint"
     [[ $output == *"pair heel: lateral and medial differ by 0.000000 mm  pass"* ]] || assert_equal "$output" "a pair"
     "$LASTFLAT" flatten "$2" --request "$3" --out by_hand
     assert_same_result out/result.json by_hand/result.json

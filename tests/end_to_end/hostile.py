@@ -78,7 +78,7 @@ def outcome_of(program, file, seconds, megabytes):
     with tempfile.TemporaryDirectory(prefix="lastflat-hostile-") as folder:
         out = pathlib.Path(folder) / "out"
         try:
-            run = subprocess.run([program, "flatten", file, "--out", out], capture_output=True, timeout=seconds, check=False,
+            run = subprocess.run([program, "flatten", "--json", file, "--out", out], capture_output=True, timeout=seconds, check=False,
                                  stdin=subprocess.DEVNULL, preexec_fn=lambda: limit_address_space(megabytes))
         except subprocess.TimeoutExpired:
             return "timeout", f"not done after {seconds:g} s", True

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/export/write_model.h"
-#include "core/export/write_svg.h"
 #include "core/load/load_model.h"
 #include "tests/helpers/sample.h"
 
@@ -64,26 +63,6 @@ TEST_SUITE("core/export") {
               doctest::Approx(result().sheet.width));
     }
 
-    TEST_CASE("the drawing is in millimetres and names every curve with its length") {
-        const std::string svg = write_svg(result());
-        const auto box = svg.find("viewBox=\"0 0 ");
-        REQUIRE(box != std::string::npos);
-        const std::string width = svg.substr(box + 13, svg.find(' ', box + 13) - box - 13);
-        CHECK(svg.find("width=\"" + width + "mm\"") != std::string::npos);
-        CHECK(count(svg, "class=\"cut\"") == 2);
-        CHECK(count(svg, ">heel 78.71 mm locked<") == 2);
-        CHECK(count(svg, "data-curve=\"featherline\"") == 2);
-        CHECK(svg.find("h100") != std::string::npos);
-    }
-
-    TEST_CASE("names from outside cannot break the drawing") {
-        FlattenResult hostile = result();
-        hostile.regions[0].region.name = "<script>\"&'";
-        const std::string svg = write_svg(hostile);
-        CHECK(svg.find("<script>") == std::string::npos);
-        CHECK(svg.find("&lt;script&gt;&quot;&amp;") != std::string::npos);
-    }
-
     TEST_CASE("a model's OBJ and GLB say the same") {
         const SampleLast last = make_sample_last();
         const RawMesh obj = load_model(write_model_obj(last.mesh)),
@@ -94,20 +73,6 @@ TEST_SUITE("core/export") {
             CHECK(obj.positions[v] == last.mesh.positions[v]);
             CHECK((1000.0 * glb.positions[v] - obj.positions[v]).norm() < 5e-5);
         }
-    }
-
-    TEST_CASE("the fan is drawn when asked for, one line for each border vertex") {
-        CHECK(count(write_svg(result()), "class=\"fan\"") == 0);
-        const SampleLast last = make_sample_last();
-        FlattenOptions options = test::sample_options(last);
-        options.request.draw_fan = true;
-        const FlattenResult drawn = test::flatten_sample(last, options);
-        const std::string svg = write_svg(drawn);
-        CHECK(count(svg, "class=\"fan\"") == 2);
-        std::size_t begin = svg.find("class=\"fan\""), spokes = 0;
-        for (std::size_t at = begin; at < svg.find("<circle", begin); ++at)
-            spokes += svg[at] == 'M';
-        CHECK(spokes == drawn.regions[0].region.border.size());
     }
 }
 

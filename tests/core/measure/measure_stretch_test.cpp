@@ -21,7 +21,10 @@ TEST_SUITE("core/measure/measure_stretch") {
         const Region region = test::plane();
         const StretchReport report = measure_stretch(region, scaled(region, 0.8, 1.25), {});
         CHECK(report.most_stretched_percent == doctest::Approx(25.0));
-        CHECK(report.most_compressed_percent == doctest::Approx(20.0));
+        CHECK(report.most_gathered_percent == doctest::Approx(-20.0));
+        CHECK(report.area.p01 == doctest::Approx(0.0));
+        CHECK(measure_stretch(region, scaled(region, 0.8, 1), {}).area.p50 ==
+              doctest::Approx(25.0));
         CHECK(report.larger.p50 == doctest::Approx(25.0));
         CHECK(report.smaller.p01 == doctest::Approx(-20.0));
         CHECK_FALSE(report.material_verdict.has_value());
@@ -47,7 +50,7 @@ TEST_SUITE("core/measure/measure_stretch") {
             return std::max(std::abs(p.larger_percent), std::abs(p.smaller_percent));
         };
         CHECK(worst(report.worst[0]) == doctest::Approx(std::max(report.most_stretched_percent,
-                                                                 report.most_compressed_percent)));
+                                                                 -report.most_gathered_percent)));
         for (std::size_t i = 1; i < report.worst.size(); ++i) {
             CHECK(worst(report.worst[i]) <= worst(report.worst[i - 1]));
             for (std::size_t j = 0; j < i; ++j)
@@ -100,7 +103,7 @@ TEST_SUITE("core/constrain/distortion_weights") {
             return measure_stretch(region, result.minimum.charts[0].uv, {});
         };
         const auto even = measured(SymmetricDirichlet()), dear = measured(WeightedDirichlet(1, 10));
-        CHECK(dear.most_compressed_percent < 0.8 * even.most_compressed_percent);
+        CHECK(dear.most_gathered_percent > 0.8 * even.most_gathered_percent);
         CHECK(dear.most_stretched_percent > even.most_stretched_percent);
         CHECK(measured(WeightedDirichlet(1, 1)).most_stretched_percent ==
               doctest::Approx(even.most_stretched_percent).epsilon(1e-6));
