@@ -74,8 +74,10 @@ std::optional<Vec3> notch_in(const Points3& line, double least_way) {
 void check_middle_line(const Points3& line, const std::string& name, Bounds ratio,
                        const Points3& topline, double length) {
     if (distance_to(topline, line.back()) > end_reach * length)
-        fail_search("the " + name + " line found does not end on the topline, but at " +
-                    position_text(line.back()));
+        fail_search("the " + name +
+                    " line found does not reach the topline, but is interrupted at " +
+                    position_text(line.back()) +
+                    ", where something may stand out of the last (a lug, a pin); take it off");
     if (const auto notch = notch_in(line, notch_way * length))
         fail_search("the " + name + " line found runs into a notch or a hole at " +
                     position_text(*notch) + "; fill it");

@@ -33,7 +33,9 @@ inline constexpr std::size_t most_bare_triangles = 300'000;
 ///
 /// The sole is the great flat side, the cone is above the heel. Featherline and topline are minimum
 /// cuts of the graph of faces between the sole, the sides and the top: short lines that keep to
-/// sharp edges. The centre line is the section with the upright plane through the two points of the
+/// sharp edges. On a noisy surface both are looked for with the noise taken out of the normals, on
+/// any by what stands out from its own bends; where an edge fades on such a surface, it is doubted
+/// twice. The centre line is the section with the upright plane through the two points of the
 /// featherline that are furthest apart. The lateral side is the one where the waist is wider.
 ///
 /// Throws: Error{region_invalid}, saying what is needed, if the surface is open, in several pieces,

@@ -120,7 +120,7 @@ bool slide(const SurfaceMesh& surface, const SurfacePoint& to, std::vector<Surfa
     return false;
 }
 
-constexpr double longest_way = 2.0;  ///< of the straight one
+constexpr double longest_way = 1.1;  ///< of the straight one
 /// So far before its beginning and beyond its end, as a share of its length, a section may go:
 /// surfaces have folds.
 constexpr double slack = 0.1;
