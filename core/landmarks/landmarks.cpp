@@ -12,6 +12,7 @@
 #include "core/landmarks/smooth_normals.h"
 #include "core/landmarks/sole_and_top.h"
 #include "core/locate/surface_search.h"
+#include "core/text.h"
 
 namespace lastflat {
 namespace {
@@ -132,15 +133,41 @@ std::optional<Index> vertex_of_side(const SurfaceMesh& surface, const std::vecto
     return best;
 }
 
+/// Throws: Error{region_invalid} that lists the pieces with size and place.
+void check_one_piece(const SurfaceMesh& surface) {
+    constexpr std::size_t most_listed = 8;
+    std::vector<bool> left(surface.mesh.n_faces(), true);
+    std::size_t count = 0;
+    std::string list;
+    for (std::size_t seed = 0; seed < left.size(); ++seed) {
+        if (!left[seed]) continue;
+        const auto piece = piece_of(surface, left, seed);
+        Eigen::AlignedBox3d box;
+        for (std::size_t f = 0; f < left.size(); ++f) {
+            if (!piece[f]) continue;
+            left[f] = false;
+            for (const Index v : corners_of(surface, static_cast<Index>(f)))
+                box.extend(surface.position(v));
+        }
+        if (++count > most_listed) continue;
+        const Vec3 size = box.sizes();
+        list += (count == 1 ? "" : ", ") + fixed_text(size.x(), 0) + " x " +
+                fixed_text(size.y(), 0) + " x " + fixed_text(size.z(), 0) + " mm around " +
+                position_text(box.center());
+    }
+    if (count > 1)
+        fail_search("the model is " + std::to_string(count) + " pieces (" + list +
+                    (count > most_listed ? ", ..." : "") +
+                    "); send one of them, or choose it by surface.groups");
+}
+
 void check_surface(const SurfaceMesh& surface) {
     if (surface.mesh.n_faces() > most_bare_triangles)
         fail_search("it has more than " + std::to_string(most_bare_triangles) + " triangles");
     for (const auto edge : surface.mesh.edges()) {
         if (surface.mesh.is_boundary(edge)) fail_search("the surface is open");
     }
-    const std::vector<bool> all(surface.mesh.n_faces(), true);
-    const auto piece = piece_of(surface, all, 0);
-    if (contains(piece, false)) fail_search("the model is more than one piece");
+    check_one_piece(surface);
 }
 
 void find_sides(const SurfaceMesh& surface, const std::vector<bool>& upper, const Points3& line,
@@ -295,6 +322,7 @@ Landmarks find_landmarks(const SurfaceMesh& surface) {
             }
         }
     }
+    if (!best && !why) fail_search("it has no flat sole");
     if (!best) throw why.value();
     if (rough) doubt_what_fades(*best);
     warn_if_unsure(*best);

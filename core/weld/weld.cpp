@@ -10,6 +10,7 @@
 #include "core/weld/check_manifold.h"
 #include "core/weld/close_holes.h"
 #include "core/weld/fins.h"
+#include "core/weld/inner_shells.h"
 #include "core/weld/joined_seams.h"
 #include "core/weld/merge_vertices.h"
 #include "core/weld/split_fans.h"
@@ -241,6 +242,7 @@ void mend(const RawMesh& raw, const WeldOptions& options, HoleRule holes, Faces&
     make_manifold(faces, repairs);
     if (holes == HoleRule::automatic) close_small_holes(faces, repairs);
     if (parted && !is_closed(faces.triangles)) throw *parted;
+    if (options.groups.empty()) drop_inner_shells(faces, repairs);
     turn_outward(faces, repairs);
     list_split_vertices(faces, repairs);
 }

@@ -76,7 +76,8 @@ TEST_SUITE("api/flatten_result") {
     }
 
     TEST_CASE("strain has one sign: above 0 stretched, below 0 gathered") {
-        for (const auto& region : written()["regions"]) {
+        const auto result = written();
+        for (const auto& region : result["regions"]) {
             const auto& stretch = region["stretch"];
             CHECK(stretch["most_gathered_percent"].get<double>() < -10.0);
             CHECK(stretch["most_stretched_percent"].get<double>() > 5.0);

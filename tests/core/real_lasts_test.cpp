@@ -2,17 +2,24 @@
 // named by LASTFLAT_LASTS (default: shared/lasts beside the source), and without it the test says
 // that it was skipped.
 #include <doctest/doctest.h>
+#include <meshoptimizer.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
+#include <random>
 #include <sstream>
 
 #include "api/flatten_request.h"
 #include "core/flatten.h"
+#include "core/landmarks/edge_line.h"
+#include "core/landmarks/landmarks.h"
 #include "core/load/load_model.h"
+#include "core/prepare.h"
+#include "core/weld/weld.h"
 #include "tests/helpers/curve_distance.h"
 
 namespace lastflat {
@@ -45,6 +52,29 @@ std::string without_groups(const std::string& obj) {
         if (line.rfind("g ", 0) != 0) text += line + "\n";
     }
     return text;
+}
+
+/// The same shape in about so many triangles.
+RawMesh coarser(const RawMesh& fine, std::size_t triangles) {
+    std::vector<float> positions;
+    std::vector<unsigned> indices;
+    for (const Vec3& p : fine.positions) {
+        for (const double c : p) positions.push_back(static_cast<float>(c));
+    }
+    for (const Triangle& t : fine.triangles) {
+        for (const Index v : t) indices.push_back(static_cast<unsigned>(v));
+    }
+    std::vector<unsigned> kept(indices.size());
+    kept.resize(meshopt_simplify(kept.data(), indices.data(), indices.size(), positions.data(),
+                                 fine.positions.size(), 3 * sizeof(float), 3 * triangles, 1.0F));
+    RawMesh coarse = fine;
+    coarse.triangles.clear();
+    for (std::size_t i = 0; i < kept.size(); i += 3) {
+        coarse.triangles.push_back({static_cast<Index>(kept[i]), static_cast<Index>(kept[i + 1]),
+                                    static_cast<Index>(kept[i + 2])});
+    }
+    coarse.triangle_labels.assign(coarse.triangles.size(), 0);
+    return coarse;
 }
 
 FlattenResult flatten_last(const std::string& name, std::size_t threads = 2) {
@@ -188,6 +218,66 @@ TEST_SUITE("core/real_lasts") {
                 const double ours = result.regions[side].metrics.symmetric_dirichlet - 1.0;
                 CHECK(std::abs(ours / best - 1.0) < 0.05);
             }
+        }
+    }
+
+    TEST_CASE("a bare last is found through the noise of a scan and in coarse triangles") {
+        if (skipped()) return;
+        for (const Optimum& best : lateral) {
+            CAPTURE(best.name);
+            RawMesh raw = load_model(
+                without_groups(bytes_of(folder() / (best.name + std::string("_closed.obj")))));
+            const SurfaceMesh clean = weld(raw);
+            const Landmarks known = find_landmarks(clean);
+            const auto check = [&](const RawMesh& changed, double mean, double most) {
+                const SurfaceMesh surface = weld(changed);
+                const Landmarks found = find_landmarks(surface);
+                CHECK(found.foot == known.foot);
+                CHECK(found.up.dot(known.up) > 0.99);
+                CHECK(found.forward.dot(known.forward) > 0.99);
+                const auto off = test::distance_between(points_of(surface, found.curves[0]),
+                                                        points_of(clean, known.curves[0]));
+                if (found.featherline_confidence < mostly_sharp) return;  // it has been said
+                CHECK(off.mean < mean);
+                CHECK(off.most < most);
+            };
+            check(coarser(raw, 1000), 2.0, 6.0);
+            std::mt19937 random(11);
+            std::normal_distribution<double> noise(0.0, 0.1);
+            for (Vec3& p : raw.positions) p += Vec3(noise(random), noise(random), noise(random));
+            check(raw, 0.7, 4.0);
+        }
+    }
+
+    TEST_CASE(
+        "a factory's export with all its dirt is one closed last, and its maker's lines lie on "
+        "it") {
+        if (skipped()) return;
+        const auto lines =
+            nlohmann::json::parse(bytes_of(folder() / "factory_38_with_lugs.curves.json"));
+        FlattenOptions options;
+        for (const std::string name : {"featherline", "topline"}) {
+            Polyline line;
+            for (const auto& p : lines[name]["polyline"])
+                line.points.emplace_back(p[0], p[1], p[2]);
+            options.request.curves.push_back({name, line});
+        }
+        options.request.weld.unit_mm = 1.0;
+        Progress progress;
+        const ReadModel read =
+            read_model(bytes_of(folder() / "factory_38_with_lugs.obj"), options, progress);
+        for (const auto edge : read.surface.mesh.edges())
+            REQUIRE_FALSE(read.surface.mesh.is_boundary(edge));
+        const auto located = locate_curves(read.surface, options.request.curves);
+        for (const SurfaceLine& line : located) {
+            double length = 0.0;
+            for (std::size_t i = 1; i < line.points.size(); ++i)
+                length += (position_of(read.surface, line.points[i]) -
+                           position_of(read.surface, line.points[i - 1]))
+                              .norm();
+            const double asked = lines[line.name]["length_mm"];
+            CAPTURE(line.name);
+            CHECK(std::abs(length / asked - 1.0) < 0.01);
         }
     }
 

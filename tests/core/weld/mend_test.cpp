@@ -199,6 +199,31 @@ TEST_SUITE("core/weld/mend") {
         CHECK(repair_of(surface, "faces_turned") == nullptr);
     }
 
+    TEST_CASE("the inner wall of a hollow print is left out, a second last beside it is not") {
+        RawMesh hollow = whole();
+        const std::size_t count = hollow.positions.size(), faces = hollow.triangles.size();
+        Vec3 middle = Vec3::Zero();
+        for (const Vec3& p : whole().positions) middle += p / static_cast<double>(count);
+        const auto add_copy = [&](RawMesh& mesh, double scale, const Vec3& offset) {
+            for (std::size_t v = 0; v < count; ++v)
+                mesh.positions.push_back(middle + scale * (mesh.positions[v] - middle) + offset);
+            for (std::size_t t = 0; t < faces; ++t) {
+                const Triangle& outer = mesh.triangles[t];
+                const auto first = static_cast<Index>(count);
+                mesh.triangles.push_back({outer[0] + first, outer[2] + first, outer[1] + first});
+                mesh.triangle_labels.push_back(0);
+            }
+        };
+        RawMesh pair = hollow;
+        add_copy(hollow, 0.8, Vec3::Zero());
+        add_copy(pair, 0.8, Vec3(0.0, 150.0, 0.0));
+        const SurfaceMesh surface = weld(hollow);
+        CHECK(surface.mesh.n_faces() == faces);
+        REQUIRE(repair_of(surface, "inner_shells_dropped") != nullptr);
+        CHECK(repair_of(surface, "inner_shells_dropped")->count == 1);
+        CHECK(weld(pair).mesh.n_faces() == 2 * faces);
+    }
+
     TEST_CASE("a few faces that wind wrongly are turned, the rest is not turned with them") {
         RawMesh mesh = whole();
         for (const std::size_t t : {100, 101, 2000})
