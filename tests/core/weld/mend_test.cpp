@@ -199,6 +199,22 @@ TEST_SUITE("core/weld/mend") {
         CHECK(repair_of(surface, "faces_turned") == nullptr);
     }
 
+    TEST_CASE(
+        "of two small patches on one edge the fin goes, not the face that a crack has loosened") {
+        RawMesh mesh = whole();
+        const Triangle t = mesh.triangles[2500];
+        mesh.positions.push_back(mesh.positions[at(t[2])] + Vec3(0.004, 0.0, 0.0));
+        mesh.positions.push_back(mesh.positions[at(t[2])] + Vec3(0.0, 0.0, 3.0));
+        const auto tip = static_cast<Index>(mesh.positions.size()) - 1;
+        mesh.triangles[2500] = {t[0], t[1], tip - 1};
+        mesh.triangles.push_back({t[1], t[0], tip});
+        mesh.triangle_labels.push_back(0);
+        const SurfaceMesh surface = weld(mesh);
+        CHECK(is_closed_surface(surface));
+        REQUIRE(repair_of(surface, "fins_dropped") != nullptr);
+        CHECK(repair_of(surface, "fins_dropped")->count == 1);
+    }
+
     TEST_CASE("the inner wall of a hollow print is left out, a second last beside it is not") {
         RawMesh hollow = whole();
         const std::size_t count = hollow.positions.size(), faces = hollow.triangles.size();
