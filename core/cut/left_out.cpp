@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numerics/geometry.h"
 #include "core/text.h"
 
 namespace lastflat {
@@ -18,18 +19,14 @@ struct LeftOut {
     bool at_brim = false, at_cut = false;
 };
 
-Triangle corners(const TriMesh& mesh, OpenMesh::FaceHandle face) {
-    Triangle triangle{};
-    std::size_t i = 0;
-    for (const auto v : mesh.fv_range(face)) triangle[i++] = v.idx();
+Triangle sorted_corners(const SurfaceMesh& surface, OpenMesh::FaceHandle face) {
+    Triangle triangle = corners_of(surface, face.idx());
     std::sort(triangle.begin(), triangle.end());
     return triangle;
 }
 
 Vec3 centre_of(const SurfaceMesh& surface, OpenMesh::FaceHandle face) {
-    Vec3 centre = Vec3::Zero();
-    for (const auto v : surface.mesh.fv_range(face)) centre += surface.position(v.idx()) / 3.0;
-    return centre;
+    return centroid(surface, corners_of(surface, face.idx()));
 }
 
 std::vector<EdgeKind> edge_kinds(const TriMesh& mesh, const Curves& curves,
@@ -50,7 +47,7 @@ std::vector<EdgeKind> edge_kinds(const TriMesh& mesh, const Curves& curves,
 }
 
 /// Per face, whether it is in a region.
-std::vector<bool> taken_faces(const TriMesh& mesh, const std::vector<Region>& regions) {
+std::vector<bool> taken_faces(const SurfaceMesh& surface, const std::vector<Region>& regions) {
     std::vector<Triangle> taken;
     for (const Region& region : regions) {
         for (Triangle t : region.triangles) {
@@ -60,10 +57,10 @@ std::vector<bool> taken_faces(const TriMesh& mesh, const std::vector<Region>& re
         }
     }
     std::sort(taken.begin(), taken.end());
-    std::vector<bool> is_taken(mesh.n_faces());
-    for (const auto face : mesh.faces())
+    std::vector<bool> is_taken(surface.mesh.n_faces());
+    for (const auto face : surface.mesh.faces())
         is_taken[at(face.idx())] =
-            std::binary_search(taken.begin(), taken.end(), corners(mesh, face));
+            std::binary_search(taken.begin(), taken.end(), sorted_corners(surface, face));
     return is_taken;
 }
 
@@ -109,7 +106,7 @@ std::vector<Warning> left_out_pieces(const SurfaceMesh& surface, const Curves& c
     for (const Region& region : regions) triangles += region.triangles.size();
     if (triangles == surface.mesh.n_faces()) return {};
     const auto kinds = edge_kinds(surface.mesh, curves, cuts);
-    std::vector<bool> seen = taken_faces(surface.mesh, regions);
+    std::vector<bool> seen = taken_faces(surface, regions);
     std::vector<LeftOut> pieces;
     for (const auto face : surface.mesh.faces()) {
         if (seen[at(face.idx())]) continue;

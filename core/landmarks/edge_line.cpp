@@ -60,12 +60,16 @@ std::vector<bool> sharp_edges(const SurfaceMesh& surface, const std::vector<Bare
     return sharp;
 }
 
-/// Where there are no sharp edges, the line of a cut goes in steps along edges: evened out.
-void even_out(Points3& closed, double over) {
+/// The mean distance between the points of a closed line.
+double spacing_of(const Points3& closed) {
     double length = 0.0;
     for (std::size_t i = 1; i < closed.size(); ++i) length += (closed[i] - closed[i - 1]).norm();
-    const double spacing = length / static_cast<double>(closed.size() - 1);
-    const double wanted = 2.0 * std::pow(over / spacing, 2);
+    return length / static_cast<double>(closed.size() - 1);
+}
+
+/// Where there are no sharp edges, the line of a cut goes in steps along edges: evened out.
+void even_out(Points3& closed, double over) {
+    const double wanted = 2.0 * std::pow(over / spacing_of(closed), 2);
     const int rounds = static_cast<int>(std::clamp(wanted, 1.0, 200.0));
     closed.pop_back();
     const std::size_t n = closed.size();
@@ -104,9 +108,7 @@ void go_on(const SurfaceMesh& surface, const std::vector<BareFace>& faces, doubl
 /// So long a line must be sharp to be told from its sides: some of its edges.
 double least_run(const Points3& line, double scale) {
     constexpr double edges = 3.0;
-    double length = 0.0;
-    for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
-    return std::max(small_gap * scale, edges * length / static_cast<double>(line.size() - 1));
+    return std::max(small_gap * scale, edges * spacing_of(line));
 }
 
 Vec3 end_direction(const Points3& line, double way) {

@@ -252,14 +252,12 @@ void clean_faces(Faces& faces, std::vector<Repair>& repairs) {
 
 void wind_alike(Faces& faces, std::vector<Repair>& repairs) {
     const std::size_t count = faces.triangles.size();
-    DisjointSets patches(count);
+    const auto sides = sides_by_edge(faces.triangles);
+    DisjointSets patches = patches_of(faces.triangles, sides);
     std::vector<Clash> clashes;
-    for_each_edge(sides_by_edge(faces.triangles), [&](auto first, auto last) {
-        if (last - first != 2) return;
-        if (first->forward == (first + 1)->forward)
+    for_each_edge(sides, [&](auto first, auto last) {
+        if (last - first == 2 && first->forward == (first + 1)->forward)
             clashes.push_back({first->triangle, (first + 1)->triangle});
-        else
-            patches.join(first->triangle, (first + 1)->triangle);
     });
     if (clashes.empty()) return;
     const std::vector<bool> turned = patches_to_turn(patches, clashes, count);

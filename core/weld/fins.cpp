@@ -6,6 +6,7 @@
 
 #include "core/numerics/geometry.h"
 #include "core/numerics/tolerances.h"
+#include "core/weld/sides.h"
 
 namespace lastflat {
 namespace {
@@ -18,15 +19,6 @@ int excess(const Sides& first, const Sides& last) {
 }
 
 }  // namespace
-
-DisjointSets patches_of(const std::vector<Triangle>& triangles, const std::vector<Side>& sides) {
-    DisjointSets patches(triangles.size());
-    for_each_edge(sides, [&](auto first, auto last) {
-        if (last - first == 2 && first->forward != (first + 1)->forward)
-            patches.join(first->triangle, (first + 1)->triangle);
-    });
-    return patches;
-}
 
 void drop_fins(Faces& faces, std::vector<Repair>& repairs) {
     const auto sides = sides_by_edge(faces.triangles);

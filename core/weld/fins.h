@@ -4,15 +4,9 @@
 #include <optional>
 
 #include "core/error.h"
-#include "core/numerics/disjoint_sets.h"
 #include "core/weld/clean_faces.h"
-#include "core/weld/sides.h"
 
 namespace lastflat {
-
-/// Triangles that hang together over edges of two that wind alike.
-[[nodiscard]] DisjointSets patches_of(const std::vector<Triangle>& triangles,
-                                      const std::vector<Side>& sides);
 
 /// Drops fins: patches with a border of their own and less than `tolerance::stray_area` of the
 /// largest one's area that end at an edge of an odd number of faces, where they are the face too

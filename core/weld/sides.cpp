@@ -41,4 +41,13 @@ std::vector<Side> sides_by_edge(const std::vector<Triangle>& triangles) {
     return sides;
 }
 
+DisjointSets patches_of(const std::vector<Triangle>& triangles, const std::vector<Side>& sides) {
+    DisjointSets patches(triangles.size());
+    for_each_edge(sides, [&](auto first, auto last) {
+        if (last - first == 2 && first->forward != (first + 1)->forward)
+            patches.join(first->triangle, (first + 1)->triangle);
+    });
+    return patches;
+}
+
 }  // namespace lastflat

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/numerics/disjoint_sets.h"
 #include "core/numerics/types.h"
 
 namespace lastflat {
@@ -23,6 +24,10 @@ struct Side {
 
 /// Sorted by edge, then by triangle.
 [[nodiscard]] std::vector<Side> sides_by_edge(const std::vector<Triangle>& triangles);
+
+/// Triangles that hang together over edges of two that wind alike.
+[[nodiscard]] DisjointSets patches_of(const std::vector<Triangle>& triangles,
+                                      const std::vector<Side>& sides);
 
 /// Calls visit(first, last) for every edge with its range of sides.
 template <class Visit>

@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "core/numerics/disjoint_sets.h"
-#include "core/weld/fins.h"
 #include "core/weld/sides.h"
 
 namespace lastflat {

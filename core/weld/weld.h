@@ -13,9 +13,9 @@ namespace lastflat {
 ///
 /// In:     `limits`: the vertices that may be left of a model without indices.
 /// Out:    `repairs` says what was done: repeated and flat faces left out, faces turned, loose
-///         pieces dropped, seams joined, borders stitched, vertices split where the surface touched
-///         itself, small holes closed (by the rule `automatic`), a closed model that was inside out
-///         turned.
+///         pieces, fins and inner shells dropped, seams joined, borders stitched, vertices split
+///         where the surface touched itself, small holes closed (by the rule `automatic`), a closed
+///         model that was inside out turned.
 /// Throws: Error{group_not_found, mesh_not_manifold, mesh_not_oriented (it has no two sides),
 ///         mesh_degenerate, model_too_large}, with the position in mm.
 [[nodiscard]] SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options = {},
