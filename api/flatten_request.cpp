@@ -181,6 +181,8 @@ void read_geometry(ObjectReader& reader, const RequestLimits& limits, Request& r
     if (const auto cuts = reader.find("cuts")) cut.cuts = read_names(*cuts, limits);
     if (const auto seams = reader.find("seams")) cut.seams = read_names(*seams, limits);
     if (const auto holes = reader.find("holes")) cut.holes = holes->choice(hole_words);
+    if (const auto features = reader.find("features"))
+        cut.features = features->choice(feature_words);
     if (const auto regions = reader.find("regions")) {
         for (const auto& [name, field] : regions->entries(limits.regions)) {
             const RegionChoice region = read_region(name, field);

@@ -14,7 +14,7 @@ namespace lastflat::api {
 class Refusal : public std::runtime_error {
 public:
     Refusal(ProblemCode code, const std::string& detail) : Refusal(Problem(code, detail)) {}
-    explicit Refusal(Problem problem) : Refusal(problem, problem.detail) {}
+    explicit Refusal(const Problem& problem) : Refusal(problem, problem.detail) {}
     /// `why` may say what the problem does not.
     Refusal(Problem problem, const std::string& why)
         : std::runtime_error(why), problem_(std::move(problem)) {}

@@ -179,6 +179,8 @@ Json request_json(const Request& request) {
     if (!cut.cuts.empty()) json["cuts"] = cut.cuts;
     if (!cut.seams.empty()) json["seams"] = cut.seams;
     if (cut.holes != HoleRule::automatic) json["holes"] = word_of(hole_words, cut.holes);
+    if (cut.features != FeatureRule::automatic)
+        json["features"] = word_of(feature_words, cut.features);
     for (const RegionChoice& region : cut.regions) {
         json["regions"][region.name] =
             region.inside ? Json{{"contains", location_json(*region.inside)}} : Json::object();

@@ -35,6 +35,9 @@ inline constexpr Word<Coincident> coincident_words[]{{"join", Coincident::join},
 inline constexpr Word<HoleRule> hole_words[]{
     {"auto", HoleRule::automatic}, {"keep", HoleRule::keep}, {"open", HoleRule::open}};
 
+inline constexpr Word<FeatureRule> feature_words[]{
+    {"auto", FeatureRule::automatic}, {"fill", FeatureRule::fill}, {"keep", FeatureRule::keep}};
+
 inline constexpr Word<Keep> keep_words[]{{"edges", Keep::edges}, {"total", Keep::total}};
 
 /// What the drawing shows: the fan (no value), or a quantity by colour.

@@ -6,6 +6,7 @@
 #include "core/constrain/check_constraints.h"
 #include "core/constrain/constraint_rows.h"
 #include "core/cut/left_out.h"
+#include "core/defeature/defeature.h"
 #include "core/load/load_model.h"
 #include "core/plan/close_opening.h"
 #include "core/stopwatch.h"
@@ -56,6 +57,7 @@ ReadModel read_model(std::string_view model, const FlattenOptions& options, Prog
     progress.reach(Stage::weld, 0.1);
     read.surface = weld(raw, options.request.weld, options.request.cut.holes, options.limits);
     close_opening(read.surface, options.request);
+    defeature(read.surface, options.request);
     return read;
 }
 

@@ -115,11 +115,19 @@ enum class HoleRule {
     open,
 };
 
+/// What becomes of small features of a closed last: pins, knobs, nails, drilled holes, saw cuts.
+enum class FeatureRule {
+    automatic,  ///< taken off where the curves are to be found
+    fill,       ///< taken off
+    keep,
+};
+
 struct CutOptions {
     std::vector<std::string> cuts{};      ///< names of curves
     std::vector<RegionChoice> regions{};  ///< empty: every piece is a region
     std::vector<std::string> seams{};     ///< curves that are cut, and sewn together
     HoleRule holes = HoleRule::automatic;
+    FeatureRule features = FeatureRule::automatic;
 };
 
 // The kinds of constraints. A curve that runs through several regions is constrained in each,
@@ -267,6 +275,12 @@ struct Request {
     Shading shading = Shading::area;  ///< of the drawing
     bool draw_fan = false;            ///< the geodesic fan in the drawing
 };
+
+/// If not, the cuts of a closed last are found.
+[[nodiscard]] inline bool says_how_to_cut(const Request& request) {
+    return !request.cut.cuts.empty() || !request.cut.seams.empty() ||
+           !request.cut.regions.empty() || !request.weld.groups.empty();
+}
 
 /// A request, and how it is run.
 struct FlattenOptions {

@@ -4,18 +4,12 @@
 #include <unordered_set>
 
 #include "core/numerics/box_tree.h"
+#include "core/numerics/geometry.h"
 
 namespace lastflat {
 namespace {
 
 constexpr double least_weight = 1e-3, most_weight = 1e3;
-
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 along = b - a;
-    const double length = along.squaredNorm();
-    const double t = length > 0.0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0.0;
-    return (p - a - t * along).norm();
-}
 
 /// What lies within a distance of a curve's runs.
 class NearCurve {

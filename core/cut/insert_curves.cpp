@@ -43,10 +43,16 @@ public:
     void add(const SurfaceLine& line) {
         const std::size_t number = curves_.size();
         snap_ = line.snap;
-        std::vector<Index> path{vertex_at(line.points.front())};
-        for (std::size_t i = 1; i < line.points.size(); ++i) {
+        const std::size_t last = line.points.size() - 1;
+        const auto vertex_of = [&](std::size_t i, Index face) {
+            const bool on_line = i == 0 ? line.starts_on_line : i == last && line.ends_on_line;
+            const Index found = on_line && face >= 0 ? vertex_on_line(line.points[i], face) : -1;
+            return found >= 0 ? found : vertex_at(line.points[i]);
+        };
+        std::vector<Index> path{vertex_of(0, common_face(line.points[0], line.points[1]))};
+        for (std::size_t i = 1; i <= last; ++i) {
             const Index face = common_face(line.points[i - 1], line.points[i]);
-            const Index to = vertex_at(line.points[i]);
+            const Index to = vertex_of(i, face);
             if (face < 0 || to == path.back()) continue;
             connect(flat(face), face, to, path);
         }
@@ -152,6 +158,36 @@ private:
         }
         if (nearest_edge.is_valid()) return split_edge(nearest_edge, share);
         return split_face(holder, point);
+    }
+
+    /// The vertex of a line that runs through an old face by the point, made if there is none; -1:
+    /// no line is there. That line may have been put on vertices and edges beside the point.
+    Index vertex_on_line(const SurfacePoint& point, Index face) {
+        const FlatFace plane = flat(face);
+        const Vec2 flat_point = plane.at(point);
+        HalfedgeHandle nearest;
+        double least = tolerance::drawn_snap / snap_ * plane.snap, share = 0.0;
+        for (const FaceHandle part : parts(face)) {
+            for (const auto h : mesh_.fh_range(part)) {
+                const Index a = mesh_.from_vertex_handle(h).idx(),
+                            b = mesh_.to_vertex_handle(h).idx();
+                if (!users_.contains(std::minmax(a, b))) continue;
+                const Vec2 from = plane.at(point_of(a)), along = plane.at(point_of(b)) - from;
+                const double at =
+                    std::clamp(along.dot(flat_point - from) / along.squaredNorm(), 0.0, 1.0);
+                const double distance = (from + at * along - flat_point).norm();
+                if (distance > least) continue;
+                least = distance;
+                nearest = h;
+                share = at * along.norm() <= plane.snap           ? 0.0
+                        : (1.0 - at) * along.norm() <= plane.snap ? 1.0
+                                                                  : at;
+            }
+        }
+        if (!nearest.is_valid()) return -1;
+        if (share == 0.0) return mesh_.from_vertex_handle(nearest).idx();
+        if (share == 1.0) return mesh_.to_vertex_handle(nearest).idx();
+        return split_edge(nearest, share);
     }
 
     Index add_vertex(const Vec3& position, const SurfacePoint& point) {

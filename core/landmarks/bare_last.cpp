@@ -19,8 +19,11 @@ std::vector<Vec3> flat_sides(const std::vector<BareFace>& faces, const Vec3& axi
     for (std::size_t i = 0; i < directions; ++i) {
         const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / directions;
         all.emplace_back(std::cos(angle) * first + std::sin(angle) * second);
-        for (const BareFace& face : faces)
-            flatness[i] += face.area * std::pow(std::max(0.0, face.normal.dot(all[i])), 8);
+        for (const BareFace& face : faces) {
+            const double along = std::max(0.0, face.normal.dot(all[i]));
+            const double fourth = along * along * along * along;
+            flatness[i] += face.area * fourth * fourth;
+        }
     }
     std::vector<std::size_t> peaks;
     for (std::size_t i = 0; i < directions; ++i) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "core/numerics/geometry.h"
 #include "core/text.h"
 
 namespace lastflat {
@@ -26,18 +27,6 @@ constexpr double facing_down = 0.7;
 constexpr double notch_way = 0.05, notch_detour = 2.0;
 /// Of the length: so near to the topline a line of the middle must end.
 constexpr double end_reach = 0.06;
-
-double distance_to(const Points3& line, const Vec3& point) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Vec3& p : line) least = std::min(least, (p - point).norm());
-    return least;
-}
-
-double length_of(const Points3& line) {
-    double length = 0.0;
-    for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
-    return length;
-}
 
 Vec3 middle_of(const Points3& line) {
     Vec3 sum = Vec3::Zero();
@@ -73,7 +62,7 @@ std::optional<Vec3> notch_in(const Points3& line, double least_way) {
 
 void check_middle_line(const Points3& line, const std::string& name, Bounds ratio,
                        const Points3& topline, double length) {
-    if (distance_to(topline, line.back()) > end_reach * length)
+    if (distance_to_line(topline, line.back()) > end_reach * length)
         fail_search("the " + name +
                     " line found does not reach the topline, but is interrupted at " +
                     position_text(line.back()) +

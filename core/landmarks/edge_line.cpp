@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/landmarks/smooth_normals.h"
+#include "core/numerics/geometry.h"
 
 namespace lastflat {
 namespace {
@@ -60,11 +61,25 @@ std::vector<bool> sharp_edges(const SurfaceMesh& surface, const std::vector<Bare
     return sharp;
 }
 
+/// Per edge of a line, whether it runs over the filling of a feature that was taken off, or along
+/// it.
+std::vector<bool> filled_edges(const SurfaceMesh& surface, const std::vector<Index>& line) {
+    std::vector<bool> filled;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        const auto h = surface.mesh.find_halfedge(OpenMesh::VertexHandle(line[i - 1]),
+                                                  OpenMesh::VertexHandle(line[i]));
+        const Index left = surface.mesh.face_handle(h).idx();
+        const Index right = surface.mesh.opposite_face_handle(h).idx();
+        filled.push_back(std::any_of(
+            surface.filled.begin(), surface.filled.end(),
+            [&](const auto& feature) { return feature.holds(left) || feature.holds(right); }));
+    }
+    return filled;
+}
+
 /// The mean distance between the points of a closed line.
 double spacing_of(const Points3& closed) {
-    double length = 0.0;
-    for (std::size_t i = 1; i < closed.size(); ++i) length += (closed[i] - closed[i - 1]).norm();
-    return length / static_cast<double>(closed.size() - 1);
+    return length_of(closed) / static_cast<double>(closed.size() - 1);
 }
 
 /// Where there are no sharp edges, the line of a cut goes in steps along edges: evened out.
@@ -80,6 +95,15 @@ void even_out(Points3& closed, double over) {
                 0.25 * before[(i + n - 1) % n] + 0.5 * before[i] + 0.25 * before[(i + 1) % n];
     }
     closed.push_back(closed.front());
+}
+
+/// Whether the vertices lie to and fro beside the edge that they follow, as those of a scan do.
+bool is_jagged(const Points3& closed, double over) {
+    constexpr double most_longer = 1.02;  // than the same line evened out
+    if (spacing_of(closed) > over) return false;
+    Points3 even = closed;
+    even_out(even, over);
+    return length_of(closed) > most_longer * length_of(even);
 }
 
 /// A sharp line goes on from its end along edges that are still a little sharp and turn little.
@@ -134,7 +158,8 @@ void bridge(const Points3& from, const Points3& to, double scale, Points3& resul
 /// Where a sharp line fades out and comes back, a cut goes the shortest way between; a shoe-maker's
 /// eye follows the last of the edge and then goes on as it went. So does this, in each such gap.
 Points3 with_gaps_bridged(const SurfaceMesh& surface, const std::vector<BareFace>& faces,
-                          const std::vector<Index>& line, const std::vector<bool>& sharp) {
+                          const std::vector<Index>& line, const std::vector<bool>& sharp,
+                          const std::vector<bool>& filled) {
     const double small = small_gap * scale_of(faces);
     const std::size_t n = sharp.size();
     std::size_t begin = 0;
@@ -148,9 +173,12 @@ Points3 with_gaps_bridged(const SurfaceMesh& surface, const std::vector<BareFace
     for (std::size_t k = 0; k < n;) {
         std::size_t end = k;
         double length = 0.0;
-        for (; end < n && !sharp[(begin + end) % n]; ++end)
+        bool is_filled = false;
+        for (; end < n && !sharp[(begin + end) % n]; ++end) {
             length += (surface.position(vertex(end + 1)) - surface.position(vertex(end))).norm();
-        if (length < small) {
+            is_filled = is_filled || filled[(begin + end) % n];
+        }
+        if (length < small && !is_filled) {
             run.push_back(vertex(++k));
             continue;
         }
@@ -162,8 +190,10 @@ Points3 with_gaps_bridged(const SurfaceMesh& surface, const std::vector<BareFace
         const std::size_t before = back.size();
         const Vec3 way = surface.position(back.back()) - surface.position(run.back());
         std::vector<Index> longer_run = run, longer_back = back;
-        go_on(surface, faces, 0.45 * length, longer_run);
-        go_on(surface, faces, 0.45 * length, longer_back);
+        if (!is_filled) {
+            go_on(surface, faces, 0.45 * length, longer_run);
+            go_on(surface, faces, 0.45 * length, longer_back);
+        }
         // Only if the two come nearer to each other, and not past.
         const Vec3 left =
             surface.position(longer_back.back()) - surface.position(longer_run.back());
@@ -184,13 +214,13 @@ Points3 with_gaps_bridged(const SurfaceMesh& surface, const std::vector<BareFace
 
 }  // namespace
 
-std::pair<CurveSource, double> edge_line(const SurfaceMesh& surface,
-                                         const std::vector<BareFace>& faces,
-                                         const std::string& name, const std::vector<Index>& line,
-                                         bool noisy) {
+EdgeLine edge_line(const SurfaceMesh& surface, const std::vector<BareFace>& faces,
+                   const std::string& name, const std::vector<Index>& line, bool noisy) {
     constexpr double over_noise = 3.0, over_steps = 6.0;  // mm on a last
     const Points3 points = positions_of(surface, line);
-    const auto sharp = sharp_edges(surface, faces, line, least_run(points, scale_of(faces)));
+    auto sharp = sharp_edges(surface, faces, line, least_run(points, scale_of(faces)));
+    const auto filled = filled_edges(surface, line);
+    for (std::size_t i = 0; i < sharp.size(); ++i) sharp[i] = sharp[i] && !filled[i];
     double all = 0.0, good = 0.0;
     for (std::size_t i = 0; i < sharp.size(); ++i) {
         const double length = (points[i + 1] - points[i]).norm();
@@ -198,12 +228,14 @@ std::pair<CurveSource, double> edge_line(const SurfaceMesh& surface,
         good += sharp[i] ? length : 0.0;
     }
     const double confidence = good / all;
-    if (confidence == 1.0 && !noisy) return {{name, VertexPath{line}}, confidence};
+    const bool uneven = noisy || is_jagged(points, over_noise * scale_of(faces));
+    if (confidence == 1.0 && !uneven) return {{name, VertexPath{line}}, confidence, false};
     const bool is_edge = confidence >= mostly_sharp;
-    Points3 even =
-        !is_edge || confidence == 1.0 ? points : with_gaps_bridged(surface, faces, line, sharp);
-    if (noisy || !is_edge) even_out(even, (is_edge ? over_noise : over_steps) * scale_of(faces));
-    return {{name, Polyline{std::move(even)}}, confidence};
+    Points3 even = !is_edge || confidence == 1.0
+                       ? points
+                       : with_gaps_bridged(surface, faces, line, sharp, filled);
+    if (uneven || !is_edge) even_out(even, (is_edge ? over_noise : over_steps) * scale_of(faces));
+    return {{name, Polyline{std::move(even)}}, confidence, uneven};
 }
 
 }  // namespace lastflat

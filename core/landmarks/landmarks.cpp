@@ -12,6 +12,7 @@
 #include "core/landmarks/smooth_normals.h"
 #include "core/landmarks/sole_and_top.h"
 #include "core/locate/surface_search.h"
+#include "core/numerics/geometry.h"
 #include "core/text.h"
 
 namespace lastflat {
@@ -162,11 +163,7 @@ void check_one_piece(const SurfaceMesh& surface) {
 }
 
 void check_surface(const SurfaceMesh& surface) {
-    if (surface.mesh.n_faces() > most_bare_triangles)
-        fail_search("it has more than " + std::to_string(most_bare_triangles) + " triangles");
-    for (const auto edge : surface.mesh.edges()) {
-        if (surface.mesh.is_boundary(edge)) fail_search("the surface is open");
-    }
+    if (is_open(surface)) fail_search("the surface is open");
     check_one_piece(surface);
 }
 
@@ -210,16 +207,43 @@ Points3 upper_section(const SurfaceMesh& surface, const std::vector<bool>& upper
     return *best;
 }
 
+/// Ends a line, which goes too far, just beyond where it comes nearest to another in its last
+/// `within` mm.
+void end_at(const Points3& other, double within, Points3& line) {
+    constexpr double crossing = 1.0;  // mm on a last: so far it goes beyond
+    double beyond = 0.0, least = distance_to_line(other, line.back());
+    std::size_t nearest = line.size() - 1;
+    for (std::size_t i = line.size() - 1; i-- > 0 && beyond < within;) {
+        const double distance = distance_to_line(other, line[i]);
+        if (distance < least) {
+            least = distance;
+            nearest = i;
+        }
+        beyond += (line[i + 1] - line[i]).norm();
+    }
+    std::size_t kept = nearest + 1;
+    double further = 0.0;
+    for (; kept < line.size() && further < crossing + least; ++kept)
+        further += (line[kept] - line[kept - 1]).norm();
+    line.resize(kept);
+}
+
 void find_centre_line(const SurfaceMesh& surface, const std::vector<bool>& upper,
-                      const Points3& topline, bool noisy, Landmarks& found) {
-    const bool exact = !noisy && found.featherline_confidence >= mostly_sharp &&
-                       found.topline_confidence >= mostly_sharp;
+                      const Points3& topline, bool exact, Landmarks& found) {
     const auto [back, front] = furthest_pair(topline, found.forward);
-    found.curves.push_back(
-        {curve_name::centre_front,
-         Polyline{upper_section(surface, upper, found, front, found.toe_point, exact)}});
-    found.curves.push_back({curve_name::heel, Polyline{upper_section(surface, upper, found, back,
-                                                                     found.heel_point, exact)}});
+    const auto section = [&](const char* name, const Vec3& third, const Vec3& from) {
+        Points3 line = upper_section(surface, upper, found, third, from, exact);
+        if (!exact) {
+            const double within = 0.1 * (found.toe_point - found.heel_point).norm();
+            end_at(points_of(surface, found.curves[1]), within, line);
+            std::reverse(line.begin(), line.end());
+            end_at(points_of(surface, found.curves[0]), within, line);
+            std::reverse(line.begin(), line.end());
+        }
+        found.curves.push_back({name, Polyline{std::move(line)}});
+    };
+    section(curve_name::centre_front, front, found.toe_point);
+    section(curve_name::heel, back, found.heel_point);
 }
 
 /// Where an edge fades out, a line is bridged; on a rough surface nobody can tell where it fades.
@@ -266,11 +290,12 @@ Landmarks found_with(const SurfaceMesh& surface, const std::vector<BareFace>& fa
     const auto featherline = line_around(surface, parts.sole, curve_name::featherline);
     const auto topline = line_around(surface, parts.top, curve_name::topline);
     Landmarks found;
-    found.curves.resize(2);
-    std::tie(found.curves[0], found.featherline_confidence) =
-        edge_line(surface, faces, curve_name::featherline, featherline, noisy);
-    std::tie(found.curves[1], found.topline_confidence) =
-        edge_line(surface, faces, curve_name::topline, topline, noisy);
+    auto on_feather = edge_line(surface, faces, curve_name::featherline, featherline, noisy);
+    auto on_top = edge_line(surface, faces, curve_name::topline, topline, noisy);
+    const bool is_exact = !on_feather.evened && !on_top.evened;
+    found.featherline_confidence = on_feather.confidence;
+    found.topline_confidence = on_top.confidence;
+    found.curves = {std::move(on_feather.curve), std::move(on_top.curve)};
     const SurfaceSearch search(surface);
     for (CurveSource& curve : found.curves) {
         auto* line = std::get_if<Polyline>(&curve.form);
@@ -283,7 +308,9 @@ Landmarks found_with(const SurfaceMesh& surface, const std::vector<BareFace>& fa
     found.forward = (found.toe_point - found.heel_point).normalized();
     found.up = (frame.up - frame.up.dot(found.forward) * found.forward).normalized();
     check_shares(faces, parts);
-    find_centre_line(surface, upper, positions_of(surface, topline), noisy, found);
+    const bool exact = is_exact && found.featherline_confidence >= mostly_sharp &&
+                       found.topline_confidence >= mostly_sharp;
+    find_centre_line(surface, upper, positions_of(surface, topline), exact, found);
     check_outcome(faces, parts, line, positions_of(surface, topline), found);
     find_sides(surface, upper, line, found);
     found.cut.cuts = {curve_name::featherline, curve_name::topline, curve_name::centre_front,

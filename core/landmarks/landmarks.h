@@ -26,9 +26,6 @@ struct Landmarks {
     std::vector<Warning> warnings;
 };
 
-/// Up to how many triangles a bare last may have.
-inline constexpr std::size_t most_bare_triangles = 300'000;
-
 /// Finds featherline, topline, centre line, sides and foot on a closed last, wherever it lies.
 ///
 /// The sole is the great flat side, the cone is above the heel. Featherline and topline are minimum
@@ -39,7 +36,7 @@ inline constexpr std::size_t most_bare_triangles = 300'000;
 /// featherline that are furthest apart. The lateral side is the one where the waist is wider.
 ///
 /// Throws: Error{region_invalid}, saying what is needed, if the surface is open, in several pieces,
-///         too large, or has no such sides.
+///         or has no such sides.
 [[nodiscard]] Landmarks find_landmarks(const SurfaceMesh& surface);
 
 /// Of a curve that was found: of vertices, or in space.

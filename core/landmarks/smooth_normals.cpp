@@ -24,14 +24,22 @@ std::vector<std::vector<Index>> neighbourhoods(const SurfaceMesh& surface) {
 
 /// The value that half of the weight is below.
 double weighted_median(std::vector<std::pair<double, double>> values) {
-    std::sort(values.begin(), values.end());
-    double all = 0.0, below = 0.0;
-    for (const auto& [value, weight] : values) all += weight;
-    for (const auto& [value, weight] : values) {
-        below += weight;
-        if (below >= 0.5 * all) return value;
+    double wanted = 0.0;
+    for (const auto& [value, weight] : values) wanted += 0.5 * weight;
+    auto begin = values.begin(), end = values.end();
+    while (end - begin > 1) {
+        const auto middle = begin + (end - begin) / 2;
+        std::nth_element(begin, middle, end);
+        double below = 0.0;
+        for (auto i = begin; i != middle; ++i) below += i->second;
+        if (below >= wanted) {
+            end = middle;
+        } else {
+            wanted -= below;
+            begin = middle;
+        }
     }
-    return 0.0;
+    return values.empty() ? 0.0 : begin->first;
 }
 
 /// Per face, how far it is turned out of the mean of the three beside it.

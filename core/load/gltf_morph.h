@@ -17,7 +17,7 @@ namespace lastflat::gltf {
 struct MorphTarget {
     int accessor;
     double weight;
-    auto operator<=>(const MorphTarget&) const = default;
+    auto operator<=>(const MorphTarget&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 [[nodiscard]] std::vector<MorphTarget> morph_targets(const tinygltf::Primitive& primitive,
                                                      const std::vector<double>& weights);

@@ -56,6 +56,7 @@ std::vector<int> skin_accessors(const tinygltf::Primitive& primitive) {
 Skinned skinned(const tinygltf::Model& model, const std::vector<int>& accessors,
                 const std::vector<Eigen::Affine3d>& joints, Points3 positions) {
     std::vector<Elements> sets;
+    sets.reserve(accessors.size());
     for (const int accessor : accessors)
         sets.push_back(influences(model, accessor, positions.size()));
     Skinned result;

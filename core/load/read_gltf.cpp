@@ -52,7 +52,7 @@ private:
         int positions;
         std::vector<MorphTarget> targets;
         std::vector<int> skin;
-        auto operator<=>(const VertexData&) const = default;
+        auto operator<=>(const VertexData&) const = default;  // NOLINT(modernize-use-nullptr)
     };
 
     struct Vertices {

@@ -99,9 +99,10 @@ public:
     [[nodiscard]] std::vector<SurfaceLine> run(const std::vector<CurveSource>& sources) {
         for (const CurveSource& source : sources) {
             snap_ = tolerance::geodesic_snap;
+            starts_on_line_ = ends_on_line_ = false;
             auto line = std::visit([&](const auto& form) { return this->line(source.name, form); },
                                    source.form);
-            found_.push_back({source.name, std::move(line), snap_});
+            found_.push_back({source.name, std::move(line), snap_, starts_on_line_, ends_on_line_});
         }
         return std::move(found_);
     }
@@ -147,7 +148,8 @@ private:
         if (point == points_.end()) fail("there is no point '" + name + "'");
         if (const auto* position = std::get_if<Vec3>(&point->location)) {
             SurfacePoint end = on_surface(*position, fail);
-            if (item == 0 || item == last) snap(end);
+            if (item == 0) starts_on_line_ = snap(end);
+            if (item == last) ends_on_line_ = snap(end);
             return end;
         }
         const Index vertex = std::get<Index>(point->location);
@@ -163,8 +165,8 @@ private:
         if (stops.size() < 2) fail_curve(name, field, 0, "a curve needs two points");
         if (!runs_on_surface(polyline, stops)) snap_ = tolerance::drawn_snap;
         if (!is_closed(polyline)) {
-            snap(stops.front());
-            snap(stops.back());
+            starts_on_line_ = snap(stops.front());
+            ends_on_line_ = snap(stops.back());
         }
         std::vector<SurfacePoint> line{stops.front()};
         for (std::size_t i = 1; i < stops.size(); ++i) {
@@ -254,10 +256,12 @@ private:
                    polyline[static_cast<std::size_t>(worst - off.begin())]);
     }
 
-    void snap(SurfacePoint& end) {
+    /// Puts an end on another line or the border. Whether one is near.
+    bool snap(SurfacePoint& end) {
         const Vec3 at = position_of(surface_, end);
         SurfacePoint best = end;
-        double least = tolerance::drawn_end_reach * search().size();
+        const double reach = tolerance::drawn_end_reach * search().size();
+        double least = reach;
         const auto consider = [&](const SurfacePoint& a, const SurfacePoint& b) {
             const Vec3 from = position_of(surface_, a), to = position_of(surface_, b);
             if (from == to) return;
@@ -278,13 +282,15 @@ private:
                      SurfacePoint::at_vertex(surface_.mesh.to_vertex_handle(h).idx()));
         }
         end = best;
+        return least < reach;
     }
 
     const SurfaceMesh& surface_;
     const std::vector<PointSource>& points_;
     std::optional<SurfaceSearch> search_;
     std::vector<SurfaceLine> found_;
-    double snap_ = 0.0;  ///< of the line at hand
+    double snap_ = 0.0;                                   ///< of the line at hand
+    bool starts_on_line_ = false, ends_on_line_ = false;  ///< likewise
 };
 
 }  // namespace

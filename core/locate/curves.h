@@ -15,6 +15,8 @@ struct SurfaceLine {
     std::string name;
     std::vector<SurfacePoint> points;
     double snap = 0.0;  ///< how near to vertices and edges it may be put on them (tolerances.h)
+    /// Its first and last point were put on another line or the border.
+    bool starts_on_line = false, ends_on_line = false;
 };
 
 /// Which forms are located before which, the smallest first: what ends on others comes after them.

@@ -57,6 +57,24 @@ template <class Vec>
     return square > 0.0 ? std::clamp(way.dot(p - from) / square, 0.0, 1.0) : 0.0;
 }
 
+[[nodiscard]] inline double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    return (a + nearest_share(a, b, p) * (b - a) - p).norm();
+}
+
+[[nodiscard]] inline double length_of(const Points3& line) {
+    double length = 0.0;
+    for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
+    return length;
+}
+
+/// In: at least one point.
+[[nodiscard]] inline double distance_to_line(const Points3& line, const Vec3& p) {
+    double least = (line.front() - p).norm();
+    for (std::size_t i = 1; i < line.size(); ++i)
+        least = std::min(least, distance_to_segment(p, line[i - 1], line[i]));
+    return least;
+}
+
 /// A triangle laid into the plane: its first corner at the origin, the second along +x, the third
 /// above.
 struct FlatTriangle {

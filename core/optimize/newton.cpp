@@ -245,12 +245,31 @@ struct ErrorWatch {
     }
 };
 
+/// The projected gradient that needles may leave, however near the minimum is.
+double least_gradient(const Problem& problem, const OptimalitySystem& system) {
+    const double rounding = system.gradient_round_off();
+    return std::max(tolerance::stalled_gradient,
+                    rounding / std::sqrt(problem.distortion.total_area()));
+}
+
+/// The rows' error that the rounding of coordinates may leave where edges are tiny.
+double least_error(const Problem& problem, const VectorXd& x) {
+    double reference = infinity;
+    for (const Row& row : problem.rows) {
+        if (!row.is_soft()) reference = std::min(reference, row.reference);
+    }
+    const double rounding =
+        2.0 * std::numeric_limits<double>::epsilon() * x.lpNorm<Eigen::Infinity>();
+    return std::clamp(rounding / reference, tolerance::solver_length, tolerance::locked_length);
+}
+
 /// Whether a step promised nothing but round-off where needles stop the gradient's fall.
-bool is_idle(const ActiveSet& active, const Step& step) {
+bool is_idle(const Problem& problem, const OptimalitySystem& system, const ActiveSet& active,
+             const Step& step) {
     const Evaluation& is = step.state.is;
     return step.promised <= tolerance::idle_decrease * is.energy && !active.undecided &&
-           std::max(is.projected_gradient / tolerance::stalled_gradient,
-                    is.worst_error / tolerance::solver_length) <= 1.0;
+           is.projected_gradient <= least_gradient(problem, system) &&
+           is.worst_error <= least_error(problem, step.state.iterate.x);
 }
 
 enum class End { converged, contradictory, given_up };
@@ -273,7 +292,7 @@ End run(const Problem& problem, const Approach& approach, OptimalitySystem& syst
         progress.check();
         ++iterations;
         Step step = take_step(problem, system, active, state, momentum, progress);
-        idle_steps = is_idle(active, step) ? idle_steps + 1 : 0;
+        idle_steps = is_idle(problem, system, active, step) ? idle_steps + 1 : 0;
         const bool contradicts = watch.finds_contradiction(problem, step, iterations);
         state = std::move(step.state);
         if (idle_steps > most_idle_steps) return End::converged;
@@ -286,8 +305,8 @@ End run(const Problem& problem, const Approach& approach, OptimalitySystem& syst
         if (step.length > 0.0) continue;
         // No part of the step could be taken: rows that it would have broken may be what it lacks.
         if (active.hold_violated(rows, values_of(rows, state.iterate.x + step.direction))) continue;
-        return state.is.projected_gradient <= tolerance::stalled_gradient ? End::converged
-                                                                          : End::given_up;
+        return state.is.projected_gradient <= least_gradient(problem, system) ? End::converged
+                                                                              : End::given_up;
     }
     return End::given_up;
 }

@@ -38,8 +38,9 @@ struct Minimum {
 ///         search before has left; a new system, or one that this problem has left.
 /// Out:    charts without flipped triangles. Converged: the projected gradient is at most
 ///         `tolerance::projected_gradient` and every error at most `tolerance::solver_length`; or
-///         no step lowers the energy and the gradient is at most `tolerance::stalled_gradient`; or
-///         the approach has come near enough. One answer for one input, whatever the number of
+///         no step lowers the energy and the gradient is at most `tolerance::stalled_gradient` or
+///         what the rounding of the coordinates makes of it (needles), errors likewise; or the
+///         approach has come near enough. One answer for one input, whatever the number of
 ///         threads.
 /// Throws: Error{solver_failed}; Error{canceled}.
 [[nodiscard]] Minimum minimise(const Problem& problem, const Iterate& start,

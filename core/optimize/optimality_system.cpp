@@ -3,6 +3,7 @@
 #include "core/optimize/optimality_system.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -255,9 +256,18 @@ double OptimalitySystem::fill(const Problem& problem, const Iterate& iterate,
     std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
     add_terms(problem, iterate.x, kind);
     const auto unknowns = static_cast<Index>(iterate.x.size());
-    double trace = 0.0;
-    for (Index i = 0; i < unknowns; ++i) trace += diagonal(i);
+    double trace = 0.0, round_off = 0.0;
+    std::vector<double> entries;
+    for (Index i = 0; i < unknowns; ++i) {
+        trace += diagonal(i);
+        entries.push_back(std::abs(diagonal(i)));
+        round_off += std::pow(diagonal(i) * iterate.x[i], 2);
+    }
+    gradient_round_off_ = std::numeric_limits<double>::epsilon() * std::sqrt(round_off);
     const double mean = trace / unknowns;
+    // Of needles the diagonal has entries beyond all others: no measure for a shift.
+    const auto middle = entries.begin() + unknowns / 2;
+    std::nth_element(entries.begin(), middle, entries.end());
     hold_still(problem, iterate.x, tolerance::pin * mean);
     regularisation_ = tolerance::multiplier_regularisation / mean;
     regularised_.clear();
@@ -272,7 +282,7 @@ double OptimalitySystem::fill(const Problem& problem, const Iterate& iterate,
         diagonal(unknown) = row.is_soft() ? -row.compliance : -regularisation_;
         if (!row.is_soft()) regularised_.push_back(unknown);
     }
-    return mean;
+    return *middle;
 }
 
 void OptimalitySystem::shift_diagonal(double amount) {
@@ -288,10 +298,10 @@ void OptimalitySystem::factor(const Problem& problem, const Iterate& iterate,
     static constexpr std::array projected_shifts{tolerance::rigid_motion, 1e-7, 1e-5, 1e-3};
     prepare(problem, iterate.x);
     const auto attempt = [&](HessianKind attempted, std::span<const double> shifts) {
-        const double mean = fill(problem, iterate, held, attempted);
+        const double typical = fill(problem, iterate, held, attempted);
         double shifted = 0.0;
         for (const double shift : shifts) {
-            shift_diagonal((shift - shifted) * mean);
+            shift_diagonal((shift - shifted) * typical);
             shifted = shift;
             if (solver_.factor(matrix_, progress, problem.threads) &&
                 solver_.negative_pivots() == static_cast<Index>(problem.rows.size()))
@@ -307,8 +317,8 @@ void OptimalitySystem::factor(const Problem& problem, const Iterate& iterate,
 bool OptimalitySystem::factor_exact(const Problem& problem, const Iterate& iterate,
                                     const std::vector<Held>& held, const Progress& progress) {
     prepare(problem, iterate.x);
-    const double mean = fill(problem, iterate, held, HessianKind::exact);
-    shift_diagonal(tolerance::rigid_motion * mean);
+    const double typical = fill(problem, iterate, held, HessianKind::exact);
+    shift_diagonal(tolerance::rigid_motion * typical);
     return solver_.factor(matrix_, progress, problem.threads);
 }
 

@@ -46,6 +46,9 @@ public:
     [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& top,
                                         const Eigen::VectorXd& bottom) const;
 
+    /// What a rounding of the coordinates changes in the gradient, where it was filled last.
+    [[nodiscard]] double gradient_round_off() const { return gradient_round_off_; }
+
 private:
     using Slots = std::array<Index, 21>;  ///< of an element's lower triangle, row by row
     void prepare(const Problem& problem, const Eigen::VectorXd& x);
@@ -54,7 +57,7 @@ private:
     [[nodiscard]] std::vector<VertexPair> vertex_pairs(const Problem& problem) const;
     [[nodiscard]] std::vector<UnknownBlock> elimination_blocks(const VertexGraph& graph,
                                                                const std::vector<Row>& rows) const;
-    /// Returns the mean of the Hessian's diagonal.
+    /// Returns the median of the Hessian's diagonal.
     double fill(const Problem& problem, const Iterate& iterate, const std::vector<Held>& held,
                 HessianKind kind);
     void add_terms(const Problem& problem, const Eigen::VectorXd& x, HessianKind kind);
@@ -72,6 +75,7 @@ private:
     std::set<VertexPair> passing_;           ///< of elements that the pattern has room for
     std::vector<std::vector<Slots>> slots_;  ///< per term, of its elements that are always there
     SparseMatrix matrix_;                    ///< lower triangle
+    double gradient_round_off_ = 0.0;
     double regularisation_ = 0.0;
     std::vector<Index> regularised_;  ///< unknowns that have it
     MultifrontalLdlt solver_;

@@ -79,15 +79,10 @@ std::optional<std::string> line_at(const SurfaceMesh& surface, const Landmarks& 
     return std::nullopt;
 }
 
-bool asks_nothing(const Request& request) {
-    return request.cut.cuts.empty() && request.cut.seams.empty() && request.cut.regions.empty() &&
-           request.weld.groups.empty() && request.curves.empty();
-}
-
 }  // namespace
 
 void close_opening(SurfaceMesh& surface, const Request& request) {
-    if (!asks_nothing(request)) return;
+    if (says_how_to_cut(request) || !request.curves.empty()) return;
     const auto rims = rims_of(surface.mesh);
     if (rims.size() != 1 || rims.front().size() > most_vertices) return;
     const auto& rim = rims.front();

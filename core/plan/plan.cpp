@@ -6,22 +6,47 @@
 #include <utility>
 
 #include "core/locate/curves.h"
+#include "core/locate/surface_search.h"
+#include "core/text.h"
 
 namespace lastflat {
 namespace {
 
-bool is_open(const SurfaceMesh& surface) {
-    return std::any_of(surface.mesh.edges_begin(), surface.mesh.edges_end(),
-                       [&](auto edge) { return surface.mesh.is_boundary(edge); });
+bool is_bare(const SurfaceMesh& surface, const Request& request) {
+    return !says_how_to_cut(request) && !is_open(surface);
 }
 
-bool is_bare(const SurfaceMesh& surface, const Request& request) {
-    return request.cut.cuts.empty() && request.cut.seams.empty() && request.cut.regions.empty() &&
-           request.weld.groups.empty() && !is_open(surface);
+/// Whether a line comes to the filling, looked at from point to point.
+bool comes_to(const SurfaceMesh& surface, const SurfaceSearch& search, const Points3& line,
+              const FilledFeature& feature) {
+    return std::any_of(line.begin(), line.end(), [&](const Vec3& p) {
+        if ((p - feature.centre).norm() > feature.across_mm) return false;
+        const auto faces = faces_at(surface, search.nearest(p).point);
+        return std::any_of(faces.begin(), faces.end(), [&](Index f) { return feature.holds(f); });
+    });
+}
+
+/// A curve over what was filled is bridged there.
+void warn_where_filled(const SurfaceMesh& surface, Landmarks& found) {
+    if (surface.filled.empty()) return;
+    const SurfaceSearch search(surface);
+    for (const CurveSource& curve : found.curves) {
+        const Points3 points = points_of(surface, curve);
+        for (const FilledFeature& feature : surface.filled) {
+            if (!comes_to(surface, search, points, feature)) continue;
+            found.warnings.push_back({"landmark_unsure",
+                                      "the " + curve.name + " bridges a feature of the last at " +
+                                          position_text(feature.centre) + ", " +
+                                          fixed_text(feature.across_mm, 1) +
+                                          " mm across; look at it there, and send it corrected "
+                                          "as a curve",
+                                      feature.centre});
+        }
+    }
 }
 
 /// What was found, where the request does not say it.
-void fill_in(Landmarks& found, Request& request) {
+void fill_in(const SurfaceMesh& surface, Landmarks& found, Request& request) {
     std::erase_if(found.curves, [&](const CurveSource& curve) {
         return std::any_of(request.curves.begin(), request.curves.end(),
                            [&](const CurveSource& own) { return own.name == curve.name; });
@@ -29,6 +54,7 @@ void fill_in(Landmarks& found, Request& request) {
     std::move(found.curves.begin(), found.curves.end(), std::back_inserter(request.curves));
     found.curves.clear();
     found.cut.holes = request.cut.holes;
+    found.cut.features = surface.filled.empty() ? request.cut.features : FeatureRule::fill;
     request.cut = std::exchange(found.cut, {});
     if (request.constraints.empty())
         request.constraints = {{Lock{curve_name::centre_front}}, {Lock{curve_name::heel}}};
@@ -55,7 +81,8 @@ Plan make_plan(const SurfaceMesh& surface, const Request& request) {
     if (is_bare(surface, request)) {
         plan.found = request.curves.empty() ? Plan::Found::all : Plan::Found::some;
         plan.landmarks = find_landmarks(surface);
-        fill_in(*plan.landmarks, plan.request);
+        warn_where_filled(surface, *plan.landmarks);
+        fill_in(surface, *plan.landmarks, plan.request);
     }
     name_welded_vertices(surface, plan.request);
     auto& curves = plan.request.curves;

@@ -43,6 +43,7 @@ std::vector<Side> around_edge(const Faces& faces, const SideRange& range) {
         return std::tie(std::get<0>(a), std::get<1>(a)) < std::tie(std::get<0>(b), std::get<1>(b));
     });
     std::vector<Side> sides;
+    sides.reserve(by_angle.size());
     for (const auto& [angle, forward, side] : by_angle) sides.push_back(side);
     return sides;
 }

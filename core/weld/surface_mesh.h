@@ -25,6 +25,20 @@ struct ModelLine {
     Points3 points;  ///< mm
 };
 
+/// The mesh of these vertices and faces. Throws: Error{mesh_not_manifold}.
+[[nodiscard]] TriMesh build_mesh(const Points3& positions, const std::vector<Triangle>& triangles);
+
+/// Where a feature of the last was taken off and the surface filled.
+struct FilledFeature {
+    Vec3 centre;
+    double across_mm;
+    Index first_face, faces;  ///< the filling, of the mesh
+
+    [[nodiscard]] bool holds(Index face) const {
+        return face >= first_face && face < first_face + faces;
+    }
+};
+
 /// Vertex handles are the ids of the file, and copies of vertices where the surface touched itself;
 /// a vertex that was welded away, or that no selected face uses, is isolated.
 struct SurfaceMesh {
@@ -39,6 +53,7 @@ struct SurfaceMesh {
     /// Labels of faces that take no part, beside the border: by the border's half-edge, from, to.
     std::map<std::pair<Index, Index>, std::uint32_t> labels_beyond;
     std::vector<ModelLine> lines;
+    std::vector<FilledFeature> filled;
 
     /// The label of the face to the left of a half-edge, whether it takes part or not.
     [[nodiscard]] std::optional<std::uint32_t> label_at(OpenMesh::HalfedgeHandle h) const {
@@ -61,5 +76,8 @@ struct SurfaceMesh {
                    OpenMesh::VertexHandle(welded_to[static_cast<std::size_t>(vertex)]));
     }
 };
+
+/// Whether it has a border.
+[[nodiscard]] bool is_open(const SurfaceMesh& surface);
 
 }  // namespace lastflat

@@ -96,23 +96,6 @@ double signed_volume(const Points3& positions, const std::vector<Triangle>& tria
     return volume;
 }
 
-TriMesh build(const Points3& positions, const std::vector<Triangle>& triangles) {
-    TriMesh mesh;
-    mesh.reserve(positions.size(), triangles.size() * 3 / 2 + 64, triangles.size());
-    for (const Vec3& p : positions) mesh.add_vertex({p.x(), p.y(), p.z()});
-    for (const Triangle& t : triangles) {
-        const auto face = mesh.add_face(OpenMesh::VertexHandle(t[0]), OpenMesh::VertexHandle(t[1]),
-                                        OpenMesh::VertexHandle(t[2]));
-        if (!face.is_valid()) {
-            const Vec3& p = positions[static_cast<std::size_t>(t[0])];
-            throw Error(ErrorCode::mesh_not_manifold,
-                        "the faces around " + position_text(p) + " do not form a surface")
-                .at_position(p);
-        }
-    }
-    return mesh;
-}
-
 bool joins_coincident(const RawMesh& raw, const WeldOptions& options) {
     if (options.coincident) return *options.coincident == Coincident::join;
     return options.tolerance_mm || !raw.indexed || raw.repeats_at_seams;
@@ -272,7 +255,7 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options, HoleRule holes,
         throw Error(ErrorCode::mesh_degenerate, "no face of these groups is left to flatten");
     check_shapes(faces.positions, faces.triangles);
     check_manifold(faces.positions, faces.triangles);
-    result.mesh = build(faces.positions, faces.triangles);
+    result.mesh = build_mesh(faces.positions, faces.triangles);
     result.face_labels = faces.labels;
     scale_lines(raw, result);
     result.welded_to = std::move(faces.welded_to);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/map/pattern_map.h"
 
 namespace lastflat::server {

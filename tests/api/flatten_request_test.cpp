@@ -216,7 +216,7 @@ TEST_SUITE("api/flatten_request") {
 
     TEST_CASE("an error lists what there is instead") {
         const std::string known =
-            "nown here: constraints, curves, cuts, draw, holes, last_length_mm, layout, locks";
+            "nown here: constraints, curves, cuts, draw, features, holes, last_length_mm, layout";
         CHECK(detail_of(R"({"surfeit": 1})").find("unknown field; k" + known) == 0);
         CHECK(detail_of(R"({"lock": []})").find("unknown field; did you mean 'locks'? K" + known) ==
               0);

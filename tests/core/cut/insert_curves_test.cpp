@@ -8,6 +8,7 @@
 
 #include "core/cut/cut.h"
 #include "core/load/load_model.h"
+#include "core/locate/curves.h"
 #include "core/weld/weld.h"
 #include "tests/helpers/errors.h"
 
@@ -85,6 +86,29 @@ std::string insert_error(SurfaceMesh surface, const std::vector<CurveSource>& so
 }  // namespace
 
 TEST_SUITE("core/cut/insert_curves") {
+    TEST_CASE("an exact line that ends on a drawn one ends where that was put") {
+        RawMesh raw = bumpy(20);
+        for (Vec3& p : raw.positions) p.z() = 0.0;
+        SurfaceMesh surface = surface_of(raw);
+        // Drawn so near to a row of vertices that it is put on them.
+        const CurveSource drawn{"drawn", Polyline{{{0.0, 50.1, 0.0}, {100.0, 50.15, 0.0}}}};
+        CurveSource exact{"exact", Polyline{}};
+        auto& points = std::get<Polyline>(exact.form).points;
+        for (int row = 20; row > 10; --row) {
+            points.emplace_back(52.0, 5.0 * row, 0.0);
+            points.emplace_back(52.0, 5.0 * row - 3.0, 0.0);  // on the diagonal
+        }
+        points.emplace_back(52.0, 50.4, 0.0);
+        const auto lines = locate_curves(surface, {drawn, exact}, {});
+        CHECK(lines.at(0).starts_on_line);
+        CHECK(lines.at(1).ends_on_line);
+        CHECK(lines.at(1).snap < lines.at(0).snap);
+        const InsertedCurves inserted = insert_curves(surface, lines);
+        CutOptions cut;
+        cut.cuts = {"drawn", "exact"};
+        CHECK(cut_into_regions(surface, inserted.curves, cut).size() == 3);
+    }
+
     TEST_CASE("curves become edges, and the surface stays the same set of points") {
         SurfaceMesh surface = surface_of(bumpy(20));
         const SurfaceMesh before = surface;

@@ -7,46 +7,17 @@
 #include <numbers>
 
 #include "core/cut/cut_surface.h"
+#include "core/export/write_model.h"
+#include "core/flatten.h"
+#include "core/locate/surface_search.h"
 #include "core/numerics/geometry.h"
 #include "core/plan/plan.h"
 #include "core/sample/sample_last.h"
 #include "core/weld/weld.h"
+#include "tests/helpers/bare_sample.h"
 
 namespace lastflat {
 namespace {
-
-/// Every triangle becomes four in its own plane.
-RawMesh subdivided(const RawMesh& coarse) {
-    RawMesh fine = coarse;
-    fine.triangles.clear();
-    fine.triangle_labels.clear();
-    std::map<std::pair<Index, Index>, Index> middles;
-    const auto middle = [&](Index a, Index b) {
-        const auto [found, is_new] = middles.try_emplace(std::minmax(a, b), -1);
-        if (is_new) {
-            found->second = static_cast<Index>(fine.positions.size());
-            fine.positions.push_back(0.5 * (fine.positions[at(a)] + fine.positions[at(b)]));
-        }
-        return found->second;
-    };
-    for (std::size_t t = 0; t < coarse.triangles.size(); ++t) {
-        const auto [a, b, c] = coarse.triangles[t];
-        const Index x = middle(a, b), y = middle(b, c), z = middle(c, a);
-        for (const Triangle& part :
-             {Triangle{a, x, z}, Triangle{x, b, y}, Triangle{z, y, c}, Triangle{x, y, z}}) {
-            fine.triangles.push_back(part);
-            fine.triangle_labels.push_back(coarse.triangle_labels[t]);
-        }
-    }
-    return fine;
-}
-
-RawMesh without_groups() {
-    RawMesh raw = make_sample_last().mesh;
-    raw.label_sets = {{}};
-    raw.triangle_labels.assign(raw.triangles.size(), 0);
-    return raw;
-}
 
 struct Inserted {
     Points3 asked, got;  ///< the section, and the edges that it became
@@ -71,12 +42,6 @@ std::map<std::string, Inserted> centre_line(const RawMesh& raw) {
     return lines;
 }
 
-double length_of(const Points3& line) {
-    double length = 0.0;
-    for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
-    return length;
-}
-
 /// All turns on the way, in radians.
 double turning(const Points3& line) {
     double sum = 0.0;
@@ -85,11 +50,28 @@ double turning(const Points3& line) {
     return sum;
 }
 
+/// Puts a vertex into an edge, at a position on it.
+void split_edge(RawMesh& raw, Index a, Index b, const Vec3& position) {
+    const auto middle = static_cast<Index>(raw.positions.size());
+    raw.positions.push_back(position);
+    for (std::size_t t = 0, count = raw.triangles.size(); t < count; ++t) {
+        const Triangle old = raw.triangles[t];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            if (std::minmax(old[i], old[j]) != std::minmax(a, b)) continue;
+            raw.triangles[t][j] = middle;
+            raw.triangles.push_back(old);
+            raw.triangles.back()[i] = middle;
+            raw.triangle_labels.push_back(raw.triangle_labels[t]);
+        }
+    }
+}
+
 }  // namespace
 
 TEST_SUITE("core/landmarks/centre_line") {
     TEST_CASE("the edges of the found centre line are the section") {
-        for (const auto& [name, line] : centre_line(without_groups())) {
+        for (const auto& [name, line] : centre_line(test::bare_sample())) {
             CAPTURE(name);
             const Vec3 across = line.asked.back() - line.asked.front();
             const Vec3 normal =
@@ -103,13 +85,38 @@ TEST_SUITE("core/landmarks/centre_line") {
     }
 
     TEST_CASE("its length does not depend on the triangulation") {
-        const RawMesh coarse = without_groups(), fine = subdivided(coarse);
+        const RawMesh coarse = test::bare_sample(), fine = test::subdivided(coarse);
         auto of_coarse = centre_line(coarse), of_fine = centre_line(fine);
         REQUIRE(of_coarse.size() == 2);
         for (const auto& [name, line] : of_coarse) {
             CAPTURE(name);
             CHECK(std::abs(length_of(line.got) - length_of(of_fine.at(name).got)) < 0.02);
         }
+    }
+
+    TEST_CASE("needles along it, as a CAD system leaves them, cost few steps") {
+        RawMesh raw = test::bare_sample();
+        const SurfaceMesh surface = weld(raw);
+        const SurfaceSearch search(surface);
+        for (const CurveSource& curve : find_landmarks(surface).curves) {
+            const auto* line = std::get_if<Polyline>(&curve.form);
+            if (line == nullptr) continue;
+            for (std::size_t i = 1; i + 1 < line->points.size(); ++i) {
+                const auto edge = search.nearest(line->points[i]).point.support();
+                if (edge.size() != 2) continue;
+                const Vec3 along = surface.position(edge[1]) - surface.position(edge[0]);
+                split_edge(raw, edge[0], edge[1], line->points[i] + 1e-3 * along.normalized());
+            }
+        }
+        REQUIRE(raw.positions.size() > surface.welded_to.size() + 100);
+        Progress progress;
+        const FlattenResult result = flatten(write_model_obj(raw), {}, progress);
+        REQUIRE(result.regions.size() == 2);
+        for (const FlatRegion& region : result.regions) {
+            CHECK(region.iterations < 40);
+            CHECK(region.projected_gradient < 1e-5);
+        }
+        for (const Warning& warning : result.warnings) CHECK(warning.code != "not_converged");
     }
 }
 

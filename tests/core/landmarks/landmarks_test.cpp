@@ -12,6 +12,7 @@
 #include "core/numerics/geometry.h"
 #include "core/sample/sample_last.h"
 #include "core/weld/weld.h"
+#include "tests/helpers/bare_sample.h"
 #include "tests/helpers/curve_distance.h"
 
 namespace lastflat {
@@ -50,6 +51,30 @@ void check_found(const SampleLast& last, const Landmarks& found, const SurfaceMe
 }  // namespace
 
 TEST_SUITE("core/landmarks") {
+    TEST_CASE("where vertices lie to and fro beside the edge, the line is as long as the edge") {
+        RawMesh jagged = test::subdivided(test::subdivided(test::bare_sample()));
+        const SurfaceMesh plain = weld(jagged);
+        const Landmarks expected = find_landmarks(plain);
+        const auto& edge = std::get<VertexPath>(expected.curves.at(0).form).vertices;
+        for (std::size_t i = 0; i < edge.size(); i += 2) {
+            Vec3& p = jagged.positions[at(edge[i])];
+            p += 0.5 * (Vec3(120.0, 0.0, p.z()) - p).normalized();  // over the sole
+        }
+        const SurfaceMesh surface = weld(jagged);
+        const Landmarks found = find_landmarks(surface);
+        REQUIRE(found.curves.at(0).name == curve_name::featherline);
+        const double length = length_of(points_of(plain, expected.curves[0]));
+        double zigzag = 0.0;
+        for (std::size_t i = 1; i < edge.size(); ++i)
+            zigzag += (jagged.positions[at(edge[i])] - jagged.positions[at(edge[i - 1])]).norm();
+        CHECK(zigzag > 1.03 * length);
+        CHECK(length_of(points_of(surface, found.curves[0])) ==
+              doctest::Approx(length).epsilon(0.01));
+        CHECK(found.curves[2].name == curve_name::centre_front);
+        CHECK(length_of(points_of(surface, found.curves[2])) <
+              length_of(points_of(plain, expected.curves[2])) + 5.0);
+    }
+
     TEST_CASE("a bare last is read wherever it lies, and as the other foot in a mirror") {
         const SampleLast last = make_sample_last();
         Eigen::Affine3d turned(Eigen::AngleAxisd(2.1, Vec3(1, -2, 0.5).normalized()));

@@ -32,13 +32,6 @@ double length_of(const FlattenResult& result, const std::string& curve) {
     return 0.0;
 }
 
-bool is_open(const SurfaceMesh& surface) {
-    for (const auto edge : surface.mesh.edges()) {
-        if (surface.mesh.is_boundary(edge)) return true;
-    }
-    return false;
-}
-
 }  // namespace
 
 TEST_SUITE("core/plan/close_opening") {
