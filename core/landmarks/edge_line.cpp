@@ -229,7 +229,7 @@ EdgeLine edge_line(const SurfaceMesh& surface, const std::vector<BareFace>& face
     }
     const double confidence = good / all;
     const bool uneven = noisy || is_jagged(points, over_noise * scale_of(faces));
-    if (confidence == 1.0 && !uneven) return {{name, VertexPath{line}}, confidence, false};
+    if (confidence == 1.0 && !uneven) return {{name, Polyline{points}}, confidence, false};
     const bool is_edge = confidence >= mostly_sharp;
     Points3 even = !is_edge || confidence == 1.0
                        ? points

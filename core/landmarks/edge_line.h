@@ -15,7 +15,7 @@ struct EdgeLine {
     bool evened;        ///< it has left the border of the faces that it was found around
 };
 
-/// A closed line of a cut as a curve. Sharp all the way, it stays a path of vertices. Where it
+/// A closed line of a cut as a polyline. Sharp all the way, it goes from vertex to vertex. Where it
 /// fades out and comes back, or runs over the filling of a feature, it follows the last of the edge
 /// and bridges the rest as it went. Mostly smooth, it is evened out; on a noisy surface, or where
 /// the vertices lie to and fro beside the edge, a sharp one, too, over half the length.

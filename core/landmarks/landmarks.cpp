@@ -108,7 +108,7 @@ std::optional<Index> vertex_of_side(const SurfaceMesh& surface, const std::vecto
     constexpr std::size_t looked_at = 2000, corners = 200;
     Points3 on_curves;
     for (const CurveSource& curve : curves) {
-        const Points3 points = points_of(surface, curve);
+        const Points3& points = points_of(curve);
         for (std::size_t i = 0; i < points.size(); i += points.size() / corners + 1)
             on_curves.push_back(points[i]);
     }
@@ -235,9 +235,9 @@ void find_centre_line(const SurfaceMesh& surface, const std::vector<bool>& upper
         Points3 line = upper_section(surface, upper, found, third, from, exact);
         if (!exact) {
             const double within = 0.1 * (found.toe_point - found.heel_point).norm();
-            end_at(points_of(surface, found.curves[1]), within, line);
+            end_at(points_of(found.curves[1]), within, line);
             std::reverse(line.begin(), line.end());
-            end_at(points_of(surface, found.curves[0]), within, line);
+            end_at(points_of(found.curves[0]), within, line);
             std::reverse(line.begin(), line.end());
         }
         found.curves.push_back({name, Polyline{std::move(line)}});
@@ -298,10 +298,9 @@ Landmarks found_with(const SurfaceMesh& surface, const std::vector<BareFace>& fa
     found.curves = {std::move(on_feather.curve), std::move(on_top.curve)};
     const SurfaceSearch search(surface);
     for (CurveSource& curve : found.curves) {
-        auto* line = std::get_if<Polyline>(&curve.form);
-        if (line == nullptr) continue;
-        for (Vec3& point : line->points) point = search.nearest(point).position;
-        line->points.back() = line->points.front();
+        auto& points = std::get<Polyline>(curve.form).points;
+        for (Vec3& point : points) point = search.nearest(point).position;
+        points.back() = points.front();
     }
     const Points3 line = positions_of(surface, featherline);
     std::tie(found.heel_point, found.toe_point) = furthest_pair(line, frame.forward);
@@ -320,10 +319,8 @@ Landmarks found_with(const SurfaceMesh& surface, const std::vector<BareFace>& fa
 
 }  // namespace
 
-Points3 points_of(const SurfaceMesh& surface, const CurveSource& curve) {
-    const auto* path = std::get_if<VertexPath>(&curve.form);
-    return path != nullptr ? positions_of(surface, path->vertices)
-                           : std::get<Polyline>(curve.form).points;
+const Points3& points_of(const CurveSource& found) {
+    return std::get<Polyline>(found.form).points;
 }
 
 Landmarks find_landmarks(const SurfaceMesh& surface) {

@@ -39,7 +39,7 @@ struct Landmarks {
 ///         or has no such sides.
 [[nodiscard]] Landmarks find_landmarks(const SurfaceMesh& surface);
 
-/// Of a curve that was found: of vertices, or in space.
-[[nodiscard]] Points3 points_of(const SurfaceMesh& surface, const CurveSource& curve);
+/// Of a curve that was found: all of them are polylines.
+[[nodiscard]] const Points3& points_of(const CurveSource& found);
 
 }  // namespace lastflat

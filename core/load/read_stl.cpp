@@ -1,6 +1,8 @@
 #include "core/load/read_stl.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 
@@ -49,6 +51,20 @@ bool fits_exactly(std::string_view bytes) {
 bool holds_announced(std::string_view bytes) {
     return bytes.size() > header_bytes && announced(bytes) > 0 &&
            announced(bytes) <= (bytes.size() - header_bytes) / facet_bytes;
+}
+
+/// Whether what follows the header may be a facet: a normal, and three corners.
+bool begins_with_facet(std::string_view bytes) {
+    constexpr double longest_normal = 1.01;
+    if (bytes.size() < header_bytes + facet_bytes) return false;
+    std::string_view facet = bytes.substr(header_bytes);
+    std::array<double, 12> numbers{};
+    for (double& number : numbers) {
+        number = static_cast<double>(read_float<float>(facet, ByteOrder::little));
+        if (!std::isfinite(number)) return false;
+        facet.remove_prefix(4);
+    }
+    return std::hypot(numbers[0], numbers[1], numbers[2]) < longest_normal;
 }
 
 void add_triangle(RawMesh& mesh, const LoadLimits& limits, std::uint32_t label) {
@@ -184,7 +200,8 @@ bool is_stl(std::string_view bytes) {
     // A binary file whose count lies: its header is text or zeros, and what follows is no text.
     return bytes.size() > header_bytes &&
            bytes.substr(80).substr(0, 512).find('\0') != std::string_view::npos &&
-           (holds_announced(bytes) || (bytes.size() - header_bytes) % facet_bytes == 0);
+           (holds_announced(bytes) || (bytes.size() - header_bytes) % facet_bytes == 0 ||
+            begins_with_facet(bytes));
 }
 
 RawMesh read_stl(std::string_view bytes, const LoadLimits& limits) {

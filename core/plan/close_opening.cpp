@@ -69,12 +69,11 @@ double furthest_from(const Points3& line, const Points3& rim) {
 }
 
 /// The line of the last that a rim is.
-std::optional<std::string> line_at(const SurfaceMesh& surface, const Landmarks& found,
-                                   const Points3& rim) {
+std::optional<std::string> line_at(const Landmarks& found, const Points3& rim) {
     const double length = (found.toe_point - found.heel_point).norm();
     for (const CurveSource& curve : found.curves) {
         if (curve.name != curve_name::topline && curve.name != curve_name::featherline) continue;
-        if (furthest_from(points_of(surface, curve), rim) < rim_reach * length) return curve.name;
+        if (furthest_from(points_of(curve), rim) < rim_reach * length) return curve.name;
     }
     return std::nullopt;
 }
@@ -98,7 +97,7 @@ void close_opening(SurfaceMesh& surface, const Request& request) {
     const double length_mm = (found.toe_point - found.heel_point).norm();
     if (length_mm < shortest_infant_mm || length_mm > longest_last_mm) return;
     const Points3 points = positions_of(surface, rim);
-    const auto line = line_at(closed, found, points);
+    const auto line = line_at(found, points);
     if (!line) return;
     double length = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i)

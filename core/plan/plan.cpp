@@ -31,7 +31,7 @@ void warn_where_filled(const SurfaceMesh& surface, Landmarks& found) {
     if (surface.filled.empty()) return;
     const SurfaceSearch search(surface);
     for (const CurveSource& curve : found.curves) {
-        const Points3 points = points_of(surface, curve);
+        const Points3& points = points_of(curve);
         for (const FilledFeature& feature : surface.filled) {
             if (!comes_to(surface, search, points, feature)) continue;
             found.warnings.push_back({"landmark_unsure",

@@ -198,6 +198,25 @@ void select_faces(const RawMesh& raw, const WeldOptions& options, Faces& faces,
     faces = std::move(chosen);
 }
 
+/// Where what was chosen touches itself it is parted; the labels beyond its border stay.
+void split_chosen(Faces& faces, SurfaceMesh& surface) {
+    const auto before = static_cast<Index>(faces.positions.size());
+    split_fans(faces);
+    const std::size_t files = faces.positions.size() - faces.copies.size();
+    const auto origin = [&](Index v) {
+        return v < before ? v : faces.welded_to[at(faces.copies[at(v) - files])];
+    };
+    for (const Triangle& t : faces.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Index from = t[(i + 1) % 3], to = t[i];  // as the half-edge beyond runs
+            if (from < before && to < before) continue;
+            const auto label = surface.labels_beyond.find({origin(from), origin(to)});
+            if (label != surface.labels_beyond.end())
+                surface.labels_beyond[{from, to}] = label->second;
+        }
+    }
+}
+
 void scale_lines(const RawMesh& raw, SurfaceMesh& surface) {
     for (const RawMesh::Line& line : raw.lines) {
         ModelLine scaled{line.names, {}};
@@ -227,7 +246,6 @@ void mend(const RawMesh& raw, const WeldOptions& options, HoleRule holes, Faces&
     if (parted && !is_closed(faces.triangles)) throw *parted;
     if (options.groups.empty()) drop_inner_shells(faces, repairs);
     turn_outward(faces, repairs);
-    list_split_vertices(faces, repairs);
 }
 
 }  // namespace
@@ -251,6 +269,8 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options, HoleRule holes,
     check_size(raw, faces, limits);
     mend(raw, options, holes, faces, result.repairs);
     select_faces(raw, options, faces, result);
+    if (!options.groups.empty()) split_chosen(faces, result);
+    list_split_vertices(faces, result.repairs);
     if (faces.triangles.empty())
         throw Error(ErrorCode::mesh_degenerate, "no face of these groups is left to flatten");
     check_shapes(faces.positions, faces.triangles);

@@ -192,7 +192,7 @@ TEST_SUITE("core/real_lasts") {
             const FlattenResult result = flatten(without_groups(bytes), {}, progress);
             REQUIRE(result.plan.landmarks.has_value());
             CHECK(result.plan.landmarks->foot == Foot::right);
-            const auto points_of = [&](const CurveSource& curve) {
+            const auto any_points_of = [&](const CurveSource& curve) {
                 if (const auto* line = std::get_if<Polyline>(&curve.form)) return line->points;
                 Points3 points;
                 for (const Index v : std::get<VertexPath>(curve.form).vertices)
@@ -200,10 +200,10 @@ TEST_SUITE("core/real_lasts") {
                 return points;
             };
             for (const CurveSource& curve : result.plan.request.curves) {
-                const Points3 found = points_of(curve);
+                const Points3 found = any_points_of(curve);
                 Points3 truth;
                 for (const CurveSource& known : request.curves) {
-                    if (known.name == curve.name) truth = points_of(known);
+                    if (known.name == curve.name) truth = any_points_of(known);
                 }
                 const auto there = test::distance_between(truth, found);
                 const auto back = test::distance_between(found, truth);
@@ -235,8 +235,8 @@ TEST_SUITE("core/real_lasts") {
                 CHECK(found.foot == known.foot);
                 CHECK(found.up.dot(known.up) > 0.99);
                 CHECK(found.forward.dot(known.forward) > 0.99);
-                const auto off = test::distance_between(points_of(surface, found.curves[0]),
-                                                        points_of(clean, known.curves[0]));
+                const auto off =
+                    test::distance_between(points_of(found.curves[0]), points_of(known.curves[0]));
                 if (found.featherline_confidence < mostly_sharp) return;  // it has been said
                 CHECK(off.mean < mean);
                 CHECK(off.most < most);

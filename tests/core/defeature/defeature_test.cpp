@@ -116,13 +116,13 @@ TEST_SUITE("core/defeature/defeature") {
                 const auto before = std::find_if(
                     expected.curves.begin(), expected.curves.end(),
                     [&](const CurveSource& other) { return other.name == curve.name; });
-                const Points3 line = points_of(plain(), *before);
-                for (const Vec3& p : points_of(surface, curve)) {
+                const Points3 line = points_of(*before);
+                for (const Vec3& p : points_of(curve)) {
                     if ((p - place).norm() > feature.radius) CHECK(distance_to_line(line, p) < 1.0);
                 }
                 const bool is_bridged = curve.name == feature.bridged;
                 CHECK(named(plan.landmarks->warnings, curve.name) == (is_bridged ? 1 : 0));
-                CHECK(length_of(points_of(surface, curve)) ==
+                CHECK(length_of(points_of(curve)) ==
                       doctest::Approx(length_of(line)).epsilon(is_bridged ? 4e-3 : 1e-3));
             }
         }

@@ -31,8 +31,8 @@ std::map<std::string, Inserted> centre_line(const RawMesh& raw) {
     const CutSurface cut = cut_surface(surface, plan, progress);
     std::map<std::string, Inserted> lines;
     for (const CurveSource& source : plan.request.curves) {
-        if (const auto* line = std::get_if<Polyline>(&source.form))
-            lines[source.name].asked = line->points;
+        if (source.name == curve_name::centre_front || source.name == curve_name::heel)
+            lines[source.name].asked = points_of(source);
     }
     for (const Curve& curve : cut.inserted.curves) {
         const auto line = lines.find(curve.name);

@@ -62,6 +62,15 @@ TEST_SUITE("core/load/read_stl") {
         CHECK(has(load_error(binary(2, 2).substr(0, 84 + 70)), "unreadable_model"));
     }
 
+    TEST_CASE("a file that was cut off inside a triangle is said to be") {
+        const std::string cut = binary(9, 5).substr(0, 84 + 4 * 50 + 21);
+        CHECK(has(load_error(cut), "STL: 9 triangles are announced"));
+        CHECK(has(load_error(cut), "cut off"));
+        std::string other = cut;  // what stands where a normal should is none
+        other[84] = other[85] = other[86] = other[87] = 'x';
+        CHECK_FALSE(has(load_error(other), "STL"));
+    }
+
     TEST_CASE("what follows the triangles of the count is passed over with a warning") {
         CHECK(load_model(binary(2, 2)).warnings.empty());
         CHECK(load_model(binary(0, 2)).warnings.empty());

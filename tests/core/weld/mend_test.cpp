@@ -116,6 +116,29 @@ TEST_SUITE("core/weld/mend") {
         CHECK(repair_of(surface, "vertices_split")->positions.at(0) == Vec3::Zero());
     }
 
+    TEST_CASE("a group that touches itself in a vertex is parted there, with the labels beyond") {
+        RawMesh sheet;  // 2 x 2 cells; "a" has two that meet in the middle
+        sheet.label_sets = {{"a"}, {"b"}};
+        for (int v = 0; v < 9; ++v) sheet.positions.emplace_back(40.0 * (v % 3), 40.0 * (v / 3), 0);
+        for (const Index corner : {0, 1, 3, 4}) {
+            sheet.triangles.push_back({corner, corner + 1, corner + 4});
+            sheet.triangles.push_back({corner, corner + 4, corner + 3});
+            const std::uint32_t label = corner == 0 || corner == 4 ? 0 : 1;
+            sheet.triangle_labels.insert(sheet.triangle_labels.end(), 2, label);
+        }
+        WeldOptions options;
+        options.groups = {"a"};
+        const SurfaceMesh surface = weld(sheet, options);
+        CHECK(used_vertices(surface) == 8);
+        REQUIRE(repair_of(surface, "vertices_split") != nullptr);
+        CHECK(repair_of(surface, "vertices_split")->count == 1);
+        std::size_t beyond = 0;
+        for (const auto h : surface.mesh.halfedges()) {
+            if (surface.mesh.is_boundary(h)) beyond += surface.label_at(h) == 1U ? 1 : 0;
+        }
+        CHECK(beyond == 4);
+    }
+
     TEST_CASE("two solids that touch along an edge stay two solids") {
         // Two tetrahedra on both sides of the edge 0 1, which has four faces.
         const SurfaceMesh surface = weld(
