@@ -147,7 +147,7 @@ FlatRegion certified(Region region, Chart chart, const Minimum& minimum,
         trace_outline(region, chart),
         measure_distortion(region, chart.uv),
         measure_curves(region, chart.uv, result.asked, side_of(result, result.regions.size())),
-        measure_stretch(region, chart.uv, request.material),
+        measure_stretch(region, chart.uv, request.material, side_of(result, result.regions.size())),
         minimum.iterations};
     flat.metrics.area_verdict = area_verdict(region, flat.metrics, result.asked);
     check_result(region, chart.uv, request.method.name, flat.metrics, result.warnings);

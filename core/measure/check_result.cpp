@@ -66,17 +66,22 @@ void check_result(const Region& region, const Points2& uv, MethodName method,
 
 void check_distortion(const Region& region, const Metrics& metrics, const StretchReport& stretch,
                       bool was_found, std::vector<Warning>& warnings) {
-    constexpr double most_energy = 1.02, most_strain_percent = 25.0;
+    constexpr double most_energy = 1.02, most_strain_percent = 25.0, most_behind_toe = 12.0;
     const double strain = std::max(
         {stretch.larger.p99, -stretch.larger.p01, stretch.smaller.p99, -stretch.smaller.p01});
-    if (metrics.symmetric_dirichlet <= most_energy && strain <= most_strain_percent) return;
+    const double behind = stretch.behind_toe_percent.value_or(0.0);
+    if (metrics.symmetric_dirichlet <= most_energy && strain <= most_strain_percent &&
+        behind <= most_behind_toe)
+        return;
+    const std::string behind_text =
+        behind > most_behind_toe ? ", behind the toe by " + fixed_text(behind, 0) + " %" : "";
     const Vec3 position =
         stretch.worst.empty() ? region.position(region.border[0]) : stretch.worst[0].position;
     const std::string what = "region '" + region.name + "': mean energy " +
                              fixed_text(metrics.symmetric_dirichlet, 3) +
                              ", a hundredth of the surface strains by " + fixed_text(strain, 0) +
-                             " % or more, most by " + position_text(position) + "; " +
-                             likely_cause(region, metrics.area_3d_mm2);
+                             " % or more" + behind_text + ", most by " + position_text(position) +
+                             "; " + likely_cause(region, metrics.area_3d_mm2);
     if (was_found) throw Error(ErrorCode::distortion_extreme, what).at_position(position);
     warnings.push_back({"distortion_extreme", what, position});
 }

@@ -14,7 +14,8 @@ void check_result(const Region& region, const Points2& uv, MethodName method,
                   const Metrics& metrics, std::vector<Warning>& warnings);
 
 /// A pattern that no leather follows: the mean energy is above 1.02, or a hundredth of the surface
-/// strains by more than 25 %. Such a result of `isometric` gets the warning `distortion_extreme`
+/// strains by more than 25 %, of what is known to lie behind a last's toe by more than 12 %. Such a
+/// result of `isometric` gets the warning `distortion_extreme`
 /// with its likely cause and the worst position.
 /// Throws: Error{distortion_extreme} instead, if nobody said how the last is cut (`was_found`).
 void check_distortion(const Region& region, const Metrics& metrics, const StretchReport& stretch,

@@ -15,7 +15,7 @@ constexpr double apart = 0.05;
 
 struct Leather {
     double larger, smaller;  ///< principal strains when lasted, percent: above 0 stretched
-    double area;
+    double surface;          ///< mm^2 on the last
     Index triangle;
     [[nodiscard]] double worst() const {
         return std::abs(larger) > std::abs(smaller) ? larger : smaller;
@@ -60,10 +60,27 @@ std::vector<WorstStrain> worst_strains(const Region& region, std::vector<Leather
     return worst;
 }
 
+double strain_behind_toe(const Region& region, const std::vector<Leather>& leather,
+                         const FeatherlineSide& side) {
+    const Vec3 axis = (side.toe - side.seat) / (side.toe - side.seat).squaredNorm();
+    std::vector<std::pair<double, double>> strains;
+    double behind = 0.0;
+    for (const Leather& l : leather) {
+        const Vec3 middle = centroid(region, region.triangles[at(l.triangle)]);
+        if (axis.dot(middle - side.seat) > side.ends[0].share) continue;
+        strains.emplace_back(std::abs(l.worst()), l.surface);
+        behind += l.surface;
+    }
+    if (strains.empty()) return 0.0;
+    std::sort(strains.begin(), strains.end());
+    return percentile(strains, behind, 0.99);
+}
+
 }  // namespace
 
 StretchReport measure_stretch(const Region& region, const Points2& uv,
-                              const std::optional<MaterialLimits>& material) {
+                              const std::optional<MaterialLimits>& material,
+                              const std::optional<FeatherlineSide>& side) {
     std::vector<Leather> leather;
     std::vector<std::pair<double, double>> larger, smaller, area;
     StretchReport report{};
@@ -72,19 +89,20 @@ StretchReport measure_stretch(const Region& region, const Points2& uv,
         const Stretch s = stretch_of(region, uv, region.triangles[i]);
         const Leather l{100.0 * (s.G - 1.0), 100.0 * (s.g - 1.0), s.area_3d, static_cast<Index>(i)};
         leather.push_back(l);
-        larger.emplace_back(l.larger, l.area);
-        smaller.emplace_back(l.smaller, l.area);
-        area.emplace_back(100.0 * (s.G * s.g - 1.0), l.area);
-        total += l.area;
+        larger.emplace_back(l.larger, l.surface);
+        smaller.emplace_back(l.smaller, l.surface);
+        area.emplace_back(100.0 * (s.G * s.g - 1.0), l.surface);
+        total += l.surface;
         report.most_stretched_percent = std::max(report.most_stretched_percent, l.larger);
         report.most_gathered_percent = std::min(report.most_gathered_percent, l.smaller);
         if (material && (l.larger > material->stretch_max_percent ||
                          -l.smaller > material->compress_max_percent))
-            beyond += l.area;
+            beyond += l.surface;
     }
     report.larger = percentiles(std::move(larger), total);
     report.smaller = percentiles(std::move(smaller), total);
     report.area = percentiles(std::move(area), total);
+    if (side) report.behind_toe_percent = strain_behind_toe(region, leather, *side);
     report.worst = worst_strains(region, std::move(leather), total);
     if (material) {
         report.beyond_material = beyond / total;

@@ -79,7 +79,10 @@ struct WorstStrain {
 /// is larger.
 struct StretchReport {
     StretchPercentiles larger, smaller;
-    StretchPercentiles area;         ///< strain of the leather's area
+    StretchPercentiles area;  ///< strain of the leather's area
+    /// Of the side of a last whose toe is known: what 99 % of the surface behind the toe does not
+    /// strain by.
+    std::optional<double> behind_toe_percent{};
     double most_stretched_percent;   ///< 0 or more
     double most_gathered_percent;    ///< 0 or less
     std::vector<WorstStrain> worst;  ///< ten at most, apart from each other, the worst first
@@ -105,8 +108,9 @@ struct StretchReport {
     const std::vector<Region>& regions, const std::vector<Chart>& charts,
     const std::vector<Constraint>& constraints);
 
-[[nodiscard]] StretchReport measure_stretch(const Region& region, const Points2& uv,
-                                            const std::optional<MaterialLimits>& material);
+[[nodiscard]] StretchReport measure_stretch(
+    const Region& region, const Points2& uv, const std::optional<MaterialLimits>& material,
+    const std::optional<FeatherlineSide>& side = std::nullopt);
 
 /// Every two runs along the same vertices of the last; and, as one that fails, every curve that two
 /// regions share, but one has more of.

@@ -31,6 +31,37 @@ TEST_SUITE("core/measure/check_result") {
         CHECK(warned(plane, 1.4).size() == 1);
     }
 
+    TEST_CASE("where the toe is known, less strain is borne behind it") {
+        const Region plane = test::plane();
+        double least = 1e9, most = -1e9;
+        for (const Vec3& p : plane.positions) {
+            least = std::min(least, p.x());
+            most = std::max(most, p.x());
+        }
+        FeatherlineSide side;
+        side.seat = {least, 0.0, 0.0};
+        side.toe = {most, 0.0, 0.0};
+        side.ends[0].share = 0.5;
+        const double end = 0.5 * (least + most);
+        const auto warnings_of = [&](bool behind, const std::optional<FeatherlineSide>& known) {
+            Points2 uv;  // 15 % of stretch on one half
+            for (const Vec3& p : plane.positions)
+                uv.emplace_back((p.x() < end) == behind ? end + 0.87 * (p.x() - end) : p.x(),
+                                p.y());
+            const auto metrics = measure_distortion(plane, uv);
+            CHECK(metrics.symmetric_dirichlet < 1.02);
+            std::vector<Warning> warnings;
+            check_distortion(plane, metrics, measure_stretch(plane, uv, {}, known), false,
+                             warnings);
+            return warnings;
+        };
+        CHECK(warnings_of(true, std::nullopt).empty());
+        CHECK(warnings_of(false, side).empty());
+        REQUIRE(warnings_of(true, side).size() == 1);
+        CHECK(warnings_of(true, side)[0].detail.find("behind the toe by 15 %") !=
+              std::string::npos);
+    }
+
     TEST_CASE("the cause is the border where it is too short, and the shape where it is not") {
         CHECK(warned(test::plane(), 0.7).at(0).detail.find("bends more") != std::string::npos);
         const Region cup = test::grid(16, 16, [](double s, double t) {
