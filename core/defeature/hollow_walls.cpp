@@ -153,6 +153,7 @@ std::vector<std::vector<Index>> hollow_walls(const SurfaceMesh& surface,
     for (std::size_t w = 0; w < walls.size(); ++w)
         by_set[sets.find(static_cast<Index>(w))].push_back(walls[w]);
     std::vector<std::vector<Index>> patches;
+    patches.reserve(by_set.size());
     for (auto& [set, patch] : by_set) patches.push_back(std::move(patch));
     return patches;
 }

@@ -146,54 +146,71 @@ std::vector<Index> pairs_of(const std::vector<GraphEdge>& edges, const std::vect
     return partner;
 }
 
-/// The cut of the graph in which pairs of nodes are one, as sides of the nodes; those further than
-/// some steps from it stay there.
-std::vector<Side2> coarsely_parted(const std::vector<GraphEdge>& edges,
-                                   const std::vector<Side2>& nodes) {
-    constexpr int steps = 8;
-    const auto partner = pairs_of(edges, nodes);
-    std::vector<Index> coarse(nodes.size(), -1);
-    std::vector<Side2> coarse_nodes{Side2::first, Side2::second};
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-        if (nodes[n] != Side2::free) {
-            coarse[n] = nodes[n] == Side2::first ? 0 : 1;
-        } else if (partner[n] >= 0 && partner[n] < static_cast<Index>(n)) {
-            coarse[n] = coarse[at(partner[n])];
-        } else {
-            coarse[n] = static_cast<Index>(coarse_nodes.size());
-            coarse_nodes.push_back(Side2::free);
-        }
-    }
-    std::vector<GraphEdge> coarse_edges;
-    for (const GraphEdge& edge : edges) {
-        const auto [a, b] = std::minmax(coarse[at(edge.a)], coarse[at(edge.b)]);
-        if (a != b) coarse_edges.push_back({a, b, edge.weight});
-    }
-    std::stable_sort(coarse_edges.begin(), coarse_edges.end(), [](const auto& p, const auto& q) {
+/// A graph in which pairs of nodes are one, and all that stays on a given side.
+struct CoarseGraph {
+    std::vector<Index> node_of;  ///< per node of the finer graph
+    std::vector<Side2> nodes{Side2::first, Side2::second};
+    std::vector<GraphEdge> edges{};  ///< one between two nodes, with the weight of all
+};
+
+std::vector<GraphEdge> merged(std::vector<GraphEdge> edges) {
+    std::stable_sort(edges.begin(), edges.end(), [](const GraphEdge& p, const GraphEdge& q) {
         return std::pair(p.a, p.b) < std::pair(q.a, q.b);
     });
     std::size_t kept = 0;
-    for (const GraphEdge& edge : coarse_edges) {
-        if (kept > 0 && coarse_edges[kept - 1].a == edge.a && coarse_edges[kept - 1].b == edge.b)
-            coarse_edges[kept - 1].weight += edge.weight;
+    for (const GraphEdge& edge : edges) {
+        if (kept > 0 && edges[kept - 1].a == edge.a && edges[kept - 1].b == edge.b)
+            edges[kept - 1].weight += edge.weight;
         else
-            coarse_edges[kept++] = edge;
+            edges[kept++] = edge;
     }
-    coarse_edges.resize(kept);
-    const auto inside = minimum_cut(coarse_edges, coarse_nodes);
+    edges.resize(kept);
+    return edges;
+}
+
+CoarseGraph coarsened(const std::vector<GraphEdge>& edges, const std::vector<Side2>& nodes) {
+    const auto partner = pairs_of(edges, nodes);
+    CoarseGraph coarse{std::vector<Index>(nodes.size(), -1)};
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        if (nodes[n] != Side2::free) {
+            coarse.node_of[n] = nodes[n] == Side2::first ? 0 : 1;
+        } else if (partner[n] >= 0 && partner[n] < static_cast<Index>(n)) {
+            coarse.node_of[n] = coarse.node_of[at(partner[n])];
+        } else {
+            coarse.node_of[n] = static_cast<Index>(coarse.nodes.size());
+            coarse.nodes.push_back(Side2::free);
+        }
+    }
+    std::vector<GraphEdge> between;
+    for (const GraphEdge& edge : edges) {
+        const auto [a, b] = std::minmax(coarse.node_of[at(edge.a)], coarse.node_of[at(edge.b)]);
+        if (a != b) between.push_back({a, b, edge.weight});
+    }
+    coarse.edges = merged(std::move(between));
+    return coarse;
+}
+
+/// The sides of the nodes by the cut of a coarser graph; those within some steps of it are free.
+std::vector<Side2> coarsely_parted(const std::vector<GraphEdge>& edges,
+                                   const std::vector<Side2>& nodes) {
+    constexpr int steps = 8;
+    const CoarseGraph coarse = coarsened(edges, nodes);
+    const auto cut = minimum_cut(coarse.edges, coarse.nodes);
+    const auto is_inside = [&](std::size_t n) {
+        return static_cast<bool>(cut[at(coarse.node_of[n])]);
+    };
     std::vector<bool> near(nodes.size(), false);
     for (int step = 0; step < steps; ++step) {
         const std::vector<bool> before = near;
         for (const auto& [a, b, weight] : edges) {
-            if (before[at(a)] || before[at(b)] ||
-                inside[at(coarse[at(a)])] != inside[at(coarse[at(b)])])
+            if (before[at(a)] || before[at(b)] || is_inside(at(a)) != is_inside(at(b)))
                 near[at(a)] = near[at(b)] = true;
         }
     }
     std::vector<Side2> sides = nodes;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
         if (nodes[n] == Side2::free && !near[n])
-            sides[n] = inside[at(coarse[n])] ? Side2::first : Side2::second;
+            sides[n] = is_inside(n) ? Side2::first : Side2::second;
     }
     return sides;
 }
