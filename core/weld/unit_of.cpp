@@ -21,20 +21,25 @@ double length_of(const RawMesh& raw) {
 constexpr std::array<std::pair<const char*, double>, 4> units{
     {{"mm", 1.0}, {"cm", 10.0}, {"m", 1000.0}, {"in", 25.4}}};
 
+std::string mm_text(double length) {
+    constexpr double long_mm = 1000.0;  // and more is no last: its tenths say nothing
+    return length < long_mm ? general_text(length, 4) : fixed_text(length, 0);
+}
+
 UnitGuess given_unit(double unit, double length, const WeldOptions& options, bool is_piece) {
     constexpr double alike = 0.05;
     if (options.last_length_mm &&
         std::abs(unit * length - *options.last_length_mm) > alike * *options.last_length_mm)
         throw Error(ErrorCode::unsupported_request,
-                    "the model is " + general_text(unit * length, 4) +
-                        " mm long in its units, not " + general_text(*options.last_length_mm, 4) +
+                    "the model is " + mm_text(unit * length) + " mm long in its units, not " +
+                        general_text(*options.last_length_mm, 4) +
                         "; leave the units out, or correct one of them")
             .at_option({"last_length_mm"});
     const bool usual = unit * length >= shortest_infant_mm && unit * length <= longest_last_mm;
     if (is_piece || usual || options.last_length_mm) return {unit, std::nullopt};
     return {unit,
             Warning{"size_unusual",
-                    "the model is " + general_text(unit * length, 4) +
+                    "the model is " + mm_text(unit * length) +
                         " mm long in the units that the request gives; a last is 95 to 350 mm "
                         "long",
                     std::nullopt}};
@@ -70,12 +75,12 @@ UnitGuess unit_of(const RawMesh& raw, const WeldOptions& options) {
         return {unit, Warning{"unit_assumed",
                               "the request gives no units; the model is " +
                                   general_text(length, 4) + " units long, so they were taken as " +
-                                  name + " (" + general_text(unit * length, 4) + " mm)",
+                                  name + " (" + mm_text(unit * length) + " mm)",
                               std::nullopt}};
     }
     return {raw.default_unit_mm,
             Warning{"size_unusual",
-                    "the model is " + general_text(raw.default_unit_mm * length, 4) +
+                    "the model is " + mm_text(raw.default_unit_mm * length) +
                         " mm long if its units are those of its format; a last is 150 to 350 mm "
                         "long, and no unit makes it so",
                     std::nullopt}};

@@ -7,6 +7,7 @@
 
 #include "core/numerics/disjoint_sets.h"
 #include "core/numerics/tolerances.h"
+#include "core/text.h"
 #include "core/weld/check_manifold.h"
 #include "core/weld/close_holes.h"
 #include "core/weld/fins.h"
@@ -170,6 +171,26 @@ void close_borders(const WeldOptions& options, HoleRule holes, bool keeps_slits,
     repairs = std::move(done);
 }
 
+/// Of pieces that a wider stitch would make one closed model, which one.
+void warn_of_gaps(const WeldOptions& options, const Faces& faces, std::vector<Warning>& warnings) {
+    if (options.stitch_mm || is_closed(faces.triangles)) return;
+    const std::size_t pieces = count_pieces(faces);
+    if (pieces < 2) return;
+    for (const double wider : {1.0, 2.0}) {
+        if (wider <= tolerance::near_border * size_of(faces)) continue;
+        Faces closed = faces;
+        std::vector<Repair> done;
+        stitch_borders(wider, closed, done);
+        if (!is_closed(closed.triangles)) continue;
+        warnings.push_back({"gaps_left",
+                            "the model is " + std::to_string(pieces) +
+                                " pieces with gaps between them; \"weld\": {\"stitch_mm\": " +
+                                general_text(wider, 2) + "} makes it one closed surface",
+                            std::nullopt});
+        return;
+    }
+}
+
 void turn_outward(Faces& faces, std::vector<Repair>& repairs) {
     if (!is_closed(faces.triangles) || signed_volume(faces.positions, faces.triangles) >= 0.0)
         return;
@@ -268,6 +289,7 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options, HoleRule holes,
     merge_coincident(raw, options, faces, result.repairs);
     check_size(raw, faces, limits);
     mend(raw, options, holes, faces, result.repairs);
+    warn_of_gaps(options, faces, result.warnings);
     select_faces(raw, options, faces, result);
     if (!options.groups.empty()) split_chosen(faces, result);
     list_split_vertices(faces, result.repairs);

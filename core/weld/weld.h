@@ -15,7 +15,7 @@ namespace lastflat {
 /// Out:    `repairs` says what was done: repeated and flat faces left out, faces turned, loose
 ///         pieces, fins and inner shells dropped, seams joined, borders stitched, vertices split
 ///         where the surface touched itself, small holes closed (by the rule `automatic`), a closed
-///         model that was inside out turned.
+///         model that was inside out turned. The warning `gaps_left` names what would close pieces.
 /// Throws: Error{group_not_found, mesh_not_manifold, mesh_not_oriented (it has no two sides),
 ///         mesh_degenerate, model_too_large}, with the position in mm.
 [[nodiscard]] SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options = {},

@@ -38,7 +38,7 @@ TEST_SUITE("core/measure/check_result") {
             least = std::min(least, p.x());
             most = std::max(most, p.x());
         }
-        FeatherlineSide side;
+        FeatherlineSide side{};
         side.seat = {least, 0.0, 0.0};
         side.toe = {most, 0.0, 0.0};
         side.ends[0].share = 0.5;

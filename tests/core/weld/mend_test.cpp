@@ -316,6 +316,22 @@ TEST_SUITE("core/weld/mend") {
         }
     }
 
+    TEST_CASE("a gap that is wider than what is closed unasked is told, with what closes it") {
+        RawMesh gap = whole();
+        detach(gap, {0.9, 0.0, 0.0}, is_in_front);
+        const SurfaceMesh surface = weld(gap);
+        REQUIRE(surface.warnings.size() == 1);
+        CHECK(surface.warnings[0].code == "gaps_left");
+        CHECK(surface.warnings[0].detail.find("2 pieces") != std::string::npos);
+        CHECK(surface.warnings[0].detail.find("\"stitch_mm\": 1}") != std::string::npos);
+        WeldOptions options;
+        options.stitch_mm = 1.0;
+        CHECK(is_closed_surface(weld(gap, options)));
+        CHECK(weld(gap, options).warnings.empty());
+        detach(gap, {9.0, 0.0, 0.0}, is_in_front);  // nothing would close that
+        CHECK(weld(gap).warnings.empty());
+    }
+
     TEST_CASE("a T-junction whose vertex lies exactly on the edge is stitched in every format") {
         const std::string strips =
             "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nv 9 0 0\nv 18 0 0\nv 18 9 0\nv 9 9 0\nv 9 4 0\n"
