@@ -49,7 +49,8 @@ public:
             const Index found = on_line && face >= 0 ? vertex_on_line(line.points[i], face) : -1;
             return found >= 0 ? found : vertex_at(line.points[i]);
         };
-        std::vector<Index> path{vertex_of(0, common_face(line.points[0], line.points[1]))};
+        const Index first_face = last > 0 ? common_face(line.points[0], line.points[1]) : Index{-1};
+        std::vector<Index> path{vertex_of(0, first_face)};
         for (std::size_t i = 1; i <= last; ++i) {
             const Index face = common_face(line.points[i - 1], line.points[i]);
             const Index to = vertex_of(i, face);

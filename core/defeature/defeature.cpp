@@ -12,6 +12,7 @@
 #include "core/locate/surface_point.h"
 #include "core/numerics/geometry.h"
 #include "core/numerics/least_area.h"
+#include "core/numerics/tolerances.h"
 
 namespace lastflat {
 namespace {
@@ -24,6 +25,8 @@ constexpr double largest_mm2 = std::numbers::pi / 4.0 * widest_mm * widest_mm;
 constexpr std::array beyond_mm{32.0, 16.0, 8.0};
 /// Of the filling: what takes away less than this much more area hardly stands out.
 constexpr double least_excess = 1.1;
+/// A last carries a few; what has more is another thing, such as a lattice.
+constexpr std::size_t most_features = 300;
 /// The triangulation takes the cube of a rim's vertices.
 constexpr std::size_t most_rim_vertices = 512;
 
@@ -34,6 +37,15 @@ double width_of(const Points3& points) {
             widest = std::max(widest, (points[i] - points[j]).norm());
     }
     return widest;
+}
+
+/// Of the longest side.
+double longest_square(const SurfaceMesh& surface, const Triangle& t) {
+    double longest = 0.0;
+    for (std::size_t i = 0; i < 3; ++i)
+        longest = std::max(
+            longest, (surface.position(t[i]) - surface.position(t[(i + 1) % 3])).squaredNorm());
+    return longest;
 }
 
 /// What takes a feature's place.
@@ -71,7 +83,11 @@ std::optional<Filling> filling_of(const SurfaceMesh& surface, const Feature& fea
         filling.places.push_back({middle, width, 0, static_cast<Index>(triangles.size())});
         for (const Triangle& t : triangles) {
             filling.triangles.push_back({rim[at(t[0])], rim[at(t[1])], rim[at(t[2])]});
-            filling.area += 0.5 * doubled_area_vector(surface, filling.triangles.back()).norm();
+            const double doubled = doubled_area_vector(surface, filling.triangles.back()).norm();
+            if (!(doubled >
+                  tolerance::degenerate_height * longest_square(surface, filling.triangles.back())))
+                return std::nullopt;
+            filling.area += 0.5 * doubled;
         }
     }
     if (filling.area > largest_mm2) return std::nullopt;
@@ -176,7 +192,10 @@ void defeature(SurfaceMesh& surface, const Request& request) {
     if (!wants(request) || is_open(surface)) return;
     Found found{{}, {}, {}, std::vector<bool>(surface.mesh.n_faces(), false)};
     const FeatureSearch search(surface);
+    std::size_t tried = 0;
     for (const auto& walls : search.walls()) {
+        if (found.gone[at(walls.front())]) continue;
+        if (++tried > most_features) break;
         for (const double beyond : beyond_mm) {
             if (found.add(surface, search.features_around(walls, beyond))) break;
         }

@@ -132,8 +132,14 @@ std::vector<std::vector<Index>> hollow_walls(const SurfaceMesh& surface,
     const auto walls = walls_of(surface, faces);
     std::map<Cell, std::vector<Corner>> corners;
     DisjointSets sets(walls.size());
+    std::map<Index, Index> wall_at;  // per vertex, the first
     for (std::size_t w = 0; w < walls.size(); ++w) {
         for (const Index v : corners_of(surface, walls[w])) {
+            const auto [first, is_new] = wall_at.try_emplace(v, static_cast<Index>(w));
+            if (!is_new) {
+                sets.join(static_cast<Index>(w), first->second);
+                continue;
+            }
             const Vec3 p = surface.position(v);
             const Cell cell = cell_of(p, together_mm);
             for (int k = 0; k < 27; ++k) {

@@ -235,7 +235,8 @@ EdgeLine edge_line(const SurfaceMesh& surface, const std::vector<BareFace>& face
                        ? points
                        : with_gaps_bridged(surface, faces, line, sharp, filled);
     if (uneven || !is_edge) even_out(even, (is_edge ? over_noise : over_steps) * scale_of(faces));
-    return {{name, Polyline{std::move(even)}}, confidence, uneven};
+    const bool leaves = uneven || !is_edge;
+    return {{name, Polyline{std::move(even)}}, confidence, leaves};
 }
 
 }  // namespace lastflat

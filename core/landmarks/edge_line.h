@@ -12,7 +12,7 @@ inline constexpr double mostly_sharp = 0.75;
 struct EdgeLine {
     CurveSource curve;
     double confidence;  ///< how sure it is: the share of its length that is sharp
-    bool evened;        ///< it has left the border of the faces that it was found around
+    bool evened;        ///< it has left the border of the faces all along, not at bridges alone
 };
 
 /// A closed line of a cut as a polyline. Sharp all the way, it goes from vertex to vertex. Where it

@@ -140,15 +140,21 @@ void check_one_piece(const SurfaceMesh& surface) {
     std::vector<bool> left(surface.mesh.n_faces(), true);
     std::size_t count = 0;
     std::string list;
+    std::vector<std::size_t> stack;
     for (std::size_t seed = 0; seed < left.size(); ++seed) {
         if (!left[seed]) continue;
-        const auto piece = piece_of(surface, left, seed);
+        left[seed] = false;
+        stack.assign(1, seed);
         Eigen::AlignedBox3d box;
-        for (std::size_t f = 0; f < left.size(); ++f) {
-            if (!piece[f]) continue;
-            left[f] = false;
-            for (const Index v : corners_of(surface, static_cast<Index>(f)))
-                box.extend(surface.position(v));
+        while (!stack.empty()) {
+            const OpenMesh::FaceHandle face(static_cast<int>(stack.back()));
+            stack.pop_back();
+            for (const Index v : corners_of(surface, face.idx())) box.extend(surface.position(v));
+            for (const auto next : surface.mesh.ff_range(face)) {
+                if (!left[at(next.idx())]) continue;
+                left[at(next.idx())] = false;
+                stack.push_back(at(next.idx()));
+            }
         }
         if (++count > most_listed) continue;
         const Vec3 size = box.sizes();

@@ -129,6 +129,10 @@ private:
     double round_off_;
 };
 
+std::ptrdiff_t free_nodes(const std::vector<Side2>& nodes) {
+    return std::count(nodes.begin(), nodes.end(), Side2::free);
+}
+
 /// Each free node in one with the free one to which its dearest edge leads, if that is not taken.
 std::vector<Index> pairs_of(const std::vector<GraphEdge>& edges, const std::vector<Side2>& nodes) {
     std::vector<Index> order(edges.size());
@@ -194,7 +198,11 @@ CoarseGraph coarsened(const std::vector<GraphEdge>& edges, const std::vector<Sid
 std::vector<Side2> coarsely_parted(const std::vector<GraphEdge>& edges,
                                    const std::vector<Side2>& nodes) {
     constexpr int steps = 8;
+    constexpr double less = 0.9;  // free nodes, or it is as well to cut the graph itself
     const CoarseGraph coarse = coarsened(edges, nodes);
+    if (static_cast<double>(free_nodes(coarse.nodes)) >
+        less * static_cast<double>(free_nodes(nodes)))
+        return nodes;
     const auto cut = minimum_cut(coarse.edges, coarse.nodes);
     const auto is_inside = [&](std::size_t n) {
         return static_cast<bool>(cut[at(coarse.node_of[n])]);
@@ -220,8 +228,7 @@ std::vector<Side2> coarsely_parted(const std::vector<GraphEdge>& edges,
 std::vector<bool> minimum_cut(const std::vector<GraphEdge>& edges,
                               const std::vector<Side2>& nodes) {
     constexpr std::ptrdiff_t most_at_once = 20'000;
-    if (std::count(nodes.begin(), nodes.end(), Side2::free) <= most_at_once)
-        return Flow(edges, nodes).part();
+    if (free_nodes(nodes) <= most_at_once) return Flow(edges, nodes).part();
     return Flow(edges, coarsely_parted(edges, nodes)).part();
 }
 

@@ -201,7 +201,8 @@ bool is_stl(std::string_view bytes) {
     return bytes.size() > header_bytes &&
            bytes.substr(80).substr(0, 512).find('\0') != std::string_view::npos &&
            (holds_announced(bytes) || (bytes.size() - header_bytes) % facet_bytes == 0 ||
-            begins_with_facet(bytes));
+            (announced(bytes) > (bytes.size() - header_bytes) / facet_bytes &&
+             begins_with_facet(bytes)));
 }
 
 RawMesh read_stl(std::string_view bytes, const LoadLimits& limits) {

@@ -68,7 +68,7 @@ inline constexpr double dependent_row = 1e-12;
 /// Radians: locked edges around a vertex whose angles miss a full turn by less close.
 inline constexpr double full_turn = 10.0 * locked_length;
 
-/// Added to the diagonal of a Hessian, as a share of its mean: a rigid motion costs no energy, so
+/// Added to the diagonal of a Hessian, as a share of its median: a rigid motion costs no energy, so
 /// the Hessian alone is singular in three directions. The least of the shifts that are tried.
 inline constexpr double rigid_motion = 1e-9;
 

@@ -305,8 +305,10 @@ End run(const Problem& problem, const Approach& approach, OptimalitySystem& syst
         if (step.length > 0.0) continue;
         // No part of the step could be taken: rows that it would have broken may be what it lacks.
         if (active.hold_violated(rows, values_of(rows, state.iterate.x + step.direction))) continue;
-        return state.is.projected_gradient <= least_gradient(problem, system) ? End::converged
-                                                                              : End::given_up;
+        const double least = step.promised <= tolerance::idle_decrease * state.is.energy
+                                 ? least_gradient(problem, system)
+                                 : tolerance::stalled_gradient;
+        return state.is.projected_gradient <= least ? End::converged : End::given_up;
     }
     return End::given_up;
 }

@@ -175,13 +175,15 @@ void close_borders(const WeldOptions& options, HoleRule holes, bool keeps_slits,
 void warn_of_gaps(const WeldOptions& options, const Faces& faces, std::vector<Warning>& warnings) {
     if (options.stitch_mm || is_closed(faces.triangles)) return;
     const std::size_t pieces = count_pieces(faces);
-    if (pieces < 2) return;
+    constexpr std::size_t most_pieces = 100;
+    if (pieces < 2 || pieces > most_pieces) return;
     for (const double wider : {1.0, 2.0}) {
         if (wider <= tolerance::near_border * size_of(faces)) continue;
         Faces closed = faces;
         std::vector<Repair> done;
         stitch_borders(wider, closed, done);
-        if (!is_closed(closed.triangles)) continue;
+        if (closed.triangles.empty() || !is_closed(closed.triangles) || count_pieces(closed) > 1)
+            continue;
         warnings.push_back({"gaps_left",
                             "the model is " + std::to_string(pieces) +
                                 " pieces with gaps between them; \"weld\": {\"stitch_mm\": " +
@@ -221,19 +223,14 @@ void select_faces(const RawMesh& raw, const WeldOptions& options, Faces& faces,
 
 /// Where what was chosen touches itself it is parted; the labels beyond its border stay.
 void split_chosen(Faces& faces, SurfaceMesh& surface) {
-    const auto before = static_cast<Index>(faces.positions.size());
+    const std::vector<Triangle> whole = faces.triangles;
     split_fans(faces);
-    const std::size_t files = faces.positions.size() - faces.copies.size();
-    const auto origin = [&](Index v) {
-        return v < before ? v : faces.welded_to[at(faces.copies[at(v) - files])];
-    };
-    for (const Triangle& t : faces.triangles) {
+    for (std::size_t t = 0; t < whole.size(); ++t) {
         for (std::size_t i = 0; i < 3; ++i) {
-            const Index from = t[(i + 1) % 3], to = t[i];  // as the half-edge beyond runs
-            if (from < before && to < before) continue;
-            const auto label = surface.labels_beyond.find({origin(from), origin(to)});
-            if (label != surface.labels_beyond.end())
-                surface.labels_beyond[{from, to}] = label->second;
+            const std::size_t j = (i + 1) % 3;  // the half-edge beyond runs from j to i
+            const auto label = surface.labels_beyond.find({whole[t][j], whole[t][i]});
+            if (label == surface.labels_beyond.end()) continue;
+            surface.labels_beyond[{faces.triangles[t][j], faces.triangles[t][i]}] = label->second;
         }
     }
 }

@@ -86,6 +86,14 @@ std::string insert_error(SurfaceMesh surface, const std::vector<CurveSource>& so
 }  // namespace
 
 TEST_SUITE("core/cut/insert_curves") {
+    TEST_CASE("a drawn line whose points are one has no length") {
+        SurfaceMesh surface = surface_of(bumpy(4));
+        const CurveSource drawn{"drawn", Polyline{{{40.0, 50.0, 0.0}, {40.0, 50.0, 0.0}}}};
+        CHECK(has(test::error_of(
+                      [&] { (void)insert_curves(surface, locate_curves(surface, {drawn}, {})); }),
+                  "has no length"));
+    }
+
     TEST_CASE("an exact line that ends on a drawn one ends where that was put") {
         RawMesh raw = bumpy(20);
         for (Vec3& p : raw.positions) p.z() = 0.0;

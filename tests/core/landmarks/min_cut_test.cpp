@@ -72,6 +72,18 @@ TEST_SUITE("core/landmarks/min_cut") {
         }
         CHECK(minimum_cut(edges, sides) == expected);
     }
+
+    TEST_CASE("a large graph that cannot be made coarser is cut as it is") {
+        std::vector<Side2> sides{Side2::first, Side2::second};
+        std::vector<GraphEdge> edges;
+        for (Index n = 2; n < 30'000; ++n) {  // each free node has only given ones beside it
+            sides.push_back(Side2::free);
+            edges.push_back({0, n, n % 3 == 0 ? 2.0 : 1.0});
+            edges.push_back({1, n, 1.5});
+        }
+        const auto inside = minimum_cut(edges, sides);
+        for (Index n = 2; n < 30'000; ++n) CHECK(inside[at(n)] == (n % 3 == 0));
+    }
 }
 
 }  // namespace lastflat
