@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "core/defeature/find_features.h"
+#include "core/defeature/feature_search.h"
 #include "core/locate/surface_point.h"
 #include "core/numerics/geometry.h"
 #include "core/numerics/least_area.h"
@@ -37,15 +37,6 @@ double width_of(const Points3& points) {
             widest = std::max(widest, (points[i] - points[j]).norm());
     }
     return widest;
-}
-
-/// Of the longest side.
-double longest_square(const SurfaceMesh& surface, const Triangle& t) {
-    double longest = 0.0;
-    for (std::size_t i = 0; i < 3; ++i)
-        longest = std::max(
-            longest, (surface.position(t[i]) - surface.position(t[(i + 1) % 3])).squaredNorm());
-    return longest;
 }
 
 /// What takes a feature's place.
@@ -83,11 +74,9 @@ std::optional<Filling> filling_of(const SurfaceMesh& surface, const Feature& fea
         filling.places.push_back({middle, width, 0, static_cast<Index>(triangles.size())});
         for (const Triangle& t : triangles) {
             filling.triangles.push_back({rim[at(t[0])], rim[at(t[1])], rim[at(t[2])]});
-            const double doubled = doubled_area_vector(surface, filling.triangles.back()).norm();
-            if (!(doubled >
-                  tolerance::degenerate_height * longest_square(surface, filling.triangles.back())))
-                return std::nullopt;
-            filling.area += 0.5 * doubled;
+            const Triangle& made = filling.triangles.back();
+            if (!(height_share(surface, made) > tolerance::degenerate_height)) return std::nullopt;
+            filling.area += 0.5 * doubled_area_vector(surface, made).norm();
         }
     }
     if (filling.area > largest_mm2) return std::nullopt;

@@ -14,7 +14,7 @@ namespace {
 /// A last's own hollows, at the waist and where the cone rises, are wider.
 constexpr double widest_hollow_mm = 8.0;
 /// Radians: a hollow edge that bends by more is sharp; by less it may be the rounding of the file.
-constexpr double sharp_bend = 0.5, least_bend = 0.02;
+constexpr double creased = 0.5, least_bend = 0.02;
 /// Walls with corners nearer than this belong together: the two sides of a saw cut.
 constexpr double together_mm = 4.0;
 /// A wall is told from the surface that lies so near around it.
@@ -32,8 +32,7 @@ std::vector<bool> hollow_faces(const SurfaceMesh& surface, const std::vector<Bar
         const Vec3 way = b.centre - a.centre;
         if (a.normal.dot(way) <= 0.0) continue;
         const double bend = angle_between(a.normal, b.normal);
-        if (bend < sharp_bend && (bend < least_bend || bend * widest_hollow_mm < way.norm()))
-            continue;
+        if (bend < creased && (bend < least_bend || bend * widest_hollow_mm < way.norm())) continue;
         hollow[left] = hollow[right] = true;
     }
     return hollow;

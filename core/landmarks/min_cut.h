@@ -1,6 +1,7 @@
 // The cheapest way to part a graph in two.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "core/numerics/types.h"
@@ -13,6 +14,12 @@ struct GraphEdge {
 };
 
 enum class Side2 : signed char { first, second, free };
+
+/// What it costs to part two faces along an edge of this length: little where it bends sharply.
+[[nodiscard]] inline double parting_cost(double bend, double sharp, double length) {
+    constexpr double floor = 0.01;  // of the cost of a smooth edge
+    return length * (floor + std::exp(-bend * bend / (sharp * sharp)));
+}
 
 /// For every node, whether it falls to the first side. Nodes of a side that is given stay there.
 ///

@@ -128,6 +128,10 @@ double typical_bend(const SurfaceMesh& surface, const std::vector<BareFace>& fac
     return weighted_median(std::move(bends));
 }
 
+double sharp_bend(const SurfaceMesh& surface, const std::vector<BareFace>& faces) {
+    return std::max(0.18, 3.0 * typical_bend(surface, faces));
+}
+
 bool smooth_normals(const SurfaceMesh& surface, std::vector<BareFace>& faces) {
     constexpr double even = 0.006, alike = 0.35;  // radians
     constexpr int most_rounds = 40;

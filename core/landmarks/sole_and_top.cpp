@@ -14,8 +14,7 @@ namespace lastflat {
 namespace {
 
 std::vector<GraphEdge> graph_of(const SurfaceMesh& surface, const std::vector<BareFace>& faces) {
-    constexpr double floor = 0.01;  // of the cost of a smooth edge
-    const double sharp = std::max(0.18, 3.0 * typical_bend(surface, faces));  // radians
+    const double sharp = sharp_bend(surface, faces);
     std::vector<GraphEdge> edges;
     for (const auto edge : surface.mesh.edges()) {
         const auto h = surface.mesh.halfedge_handle(edge, 0);
@@ -23,10 +22,9 @@ std::vector<GraphEdge> graph_of(const SurfaceMesh& surface, const std::vector<Ba
         const Index b = surface.mesh.face_handle(surface.mesh.opposite_halfedge_handle(h)).idx();
         const BareFace &left = faces[static_cast<std::size_t>(a)],
                        &right = faces[static_cast<std::size_t>(b)];
-        const double bend = angle_between(left.normal, right.normal);
         const bool convex = left.normal.dot(right.centre - left.centre) < 0.0;
-        const double ease = convex ? std::exp(-bend * bend / (sharp * sharp)) : 1.0;
-        edges.push_back({a, b, surface.mesh.calc_edge_length(edge) * (floor + ease)});
+        const double bend = convex ? angle_between(left.normal, right.normal) : 0.0;
+        edges.push_back({a, b, parting_cost(bend, sharp, surface.mesh.calc_edge_length(edge))});
     }
     return edges;
 }

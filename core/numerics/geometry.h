@@ -30,6 +30,17 @@ template <class Surface>
     return (surface.position(t[0]) + surface.position(t[1]) + surface.position(t[2])) / 3.0;
 }
 
+/// Of a triangle of the surface: its smallest height as a share of its longest side; no number if
+/// it has none.
+template <class Surface>
+[[nodiscard]] double height_share(const Surface& surface, const Triangle& t) {
+    double longest = 0.0;
+    for (std::size_t i = 0; i < 3; ++i)
+        longest = std::max(
+            longest, (surface.position(t[(i + 1) % 3]) - surface.position(t[i])).squaredNorm());
+    return doubled_area_vector(surface, t).norm() / longest;
+}
+
 /// From a to b, counter-clockwise, in [-pi, pi].
 [[nodiscard]] inline double signed_angle(const Vec2& a, const Vec2& b) {
     return std::atan2(cross(a, b), a.dot(b));

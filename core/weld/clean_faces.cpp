@@ -88,9 +88,7 @@ std::size_t longest_side(const Faces& faces, const Triangle& t) {
 
 /// As `check_shapes` has it, with room to spare.
 bool is_flat(const Faces& faces, const Triangle& t) {
-    const double longest = edge_length(faces, t, longest_side(faces, t));
-    return doubled_area_vector(faces, t).norm() <=
-           2.0 * tolerance::degenerate_height * longest * longest;
+    return !(height_share(faces, t) > 2.0 * tolerance::degenerate_height);
 }
 
 /// Joins the ends of nearly zero edges of flat triangles. Whether there were any.

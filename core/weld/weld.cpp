@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/numerics/disjoint_sets.h"
+#include "core/numerics/geometry.h"
 #include "core/numerics/tolerances.h"
 #include "core/text.h"
 #include "core/weld/check_manifold.h"
@@ -54,22 +55,16 @@ std::vector<bool> selected_labels(const RawMesh& raw, const std::vector<std::str
     return wanted;
 }
 
-void check_shapes(const Points3& positions, const std::vector<Triangle>& triangles) {
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-        const auto at = [&](std::size_t i) {
-            return positions[static_cast<std::size_t>(triangles[t][i])];
-        };
-        const double longest =
-            std::max({(at(1) - at(0)).norm(), (at(2) - at(1)).norm(), (at(0) - at(2)).norm()});
-        const double area = (at(1) - at(0)).cross(at(2) - at(0)).norm();
-        // Negated, so that an overflow to NaN is caught as well.
-        if (!(area > tolerance::degenerate_height * longest * longest) || !std::isfinite(area)) {
-            throw Error(ErrorCode::mesh_degenerate, "triangle " + std::to_string(triangles[t][0]) +
-                                                        " " + std::to_string(triangles[t][1]) +
-                                                        " " + std::to_string(triangles[t][2]) +
-                                                        " has no area, at " + position_text(at(0)) +
+void check_shapes(const Faces& faces) {
+    for (const Triangle& t : faces.triangles) {
+        // Negated, so that what is no number is caught as well.
+        if (!(height_share(faces, t) > tolerance::degenerate_height)) {
+            throw Error(ErrorCode::mesh_degenerate, "triangle " + std::to_string(t[0]) + " " +
+                                                        std::to_string(t[1]) + " " +
+                                                        std::to_string(t[2]) + " has no area, at " +
+                                                        position_text(faces.position(t[0])) +
                                                         "; remove it or mend the mesh there")
-                .at_position(at(0));
+                .at_position(faces.position(t[0]));
         }
     }
 }
@@ -292,7 +287,7 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options, HoleRule holes,
     list_split_vertices(faces, result.repairs);
     if (faces.triangles.empty())
         throw Error(ErrorCode::mesh_degenerate, "no face of these groups is left to flatten");
-    check_shapes(faces.positions, faces.triangles);
+    check_shapes(faces);
     check_manifold(faces.positions, faces.triangles);
     result.mesh = build_mesh(faces.positions, faces.triangles);
     result.face_labels = faces.labels;

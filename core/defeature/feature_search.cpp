@@ -1,4 +1,4 @@
-#include "core/defeature/find_features.h"
+#include "core/defeature/feature_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,13 +50,6 @@ Part part_around(const SurfaceMesh& surface, const std::vector<BareFace>& faces,
     return part;
 }
 
-/// What it costs to part two faces.
-double cost(const std::vector<BareFace>& faces, Index a, Index b, double length, double sharp) {
-    constexpr double floor = 0.01;  // of the cost of a smooth edge
-    const double bend = angle_between(faces[at(a)].normal, faces[at(b)].normal);
-    return length * (floor + std::exp(-bend * bend / (sharp * sharp)));
-}
-
 /// Per node, whether it is on the walls' side of the least cut; islands in it, too.
 std::vector<bool> parted(const SurfaceMesh& surface, const std::vector<BareFace>& faces,
                          const Part& part, std::size_t walls, double sharp) {
@@ -68,9 +61,10 @@ std::vector<bool> parted(const SurfaceMesh& surface, const std::vector<BareFace>
             const auto found = part.nodes.find(other);
             const Index node = found == part.nodes.end() ? rest : found->second;
             if (node != rest && node < static_cast<Index>(i)) continue;
-            edges.push_back(
-                {static_cast<Index>(i), node,
-                 cost(faces, part.faces[i], other, surface.mesh.calc_edge_length(h), sharp)});
+            const double bend =
+                angle_between(faces[at(part.faces[i])].normal, faces[at(other)].normal);
+            edges.push_back({static_cast<Index>(i), node,
+                             parting_cost(bend, sharp, surface.mesh.calc_edge_length(h))});
         }
     }
     // Seen from the rest, so that of cuts that cost the same it is the outermost.
@@ -174,7 +168,7 @@ FeatureSearch::FeatureSearch(const SurfaceMesh& surface)
     : surface_(surface), faces_(bare_faces(surface)) {
     smooth_normals(surface, faces_);
     walls_ = hollow_walls(surface, faces_);
-    if (!walls_.empty()) sharp_ = std::max(0.18, 3.0 * typical_bend(surface, faces_));
+    if (!walls_.empty()) sharp_ = sharp_bend(surface, faces_);
 }
 
 std::vector<Feature> FeatureSearch::features_around(const std::vector<Index>& walls,
