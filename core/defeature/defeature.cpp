@@ -75,7 +75,7 @@ std::optional<Filling> filling_of(const SurfaceMesh& surface, const Feature& fea
         for (const Triangle& t : triangles) {
             filling.triangles.push_back({rim[at(t[0])], rim[at(t[1])], rim[at(t[2])]});
             const Triangle& made = filling.triangles.back();
-            if (!(height_share(surface, made) > tolerance::degenerate_height)) return std::nullopt;
+            if (!(height_share(surface, made) > tolerance::filling_height)) return std::nullopt;
             filling.area += 0.5 * doubled_area_vector(surface, made).norm();
         }
     }

@@ -228,12 +228,11 @@ EdgeLine edge_line(const SurfaceMesh& surface, const std::vector<BareFace>& face
         good += sharp[i] ? length : 0.0;
     }
     const double confidence = good / all;
-    const bool uneven = noisy || is_jagged(points, over_noise * scale_of(faces));
-    if (confidence == 1.0 && !uneven) return {{name, Polyline{points}}, confidence, false};
     const bool is_edge = confidence >= mostly_sharp;
     Points3 even = !is_edge || confidence == 1.0
                        ? points
                        : with_gaps_bridged(surface, faces, line, sharp, filled);
+    const bool uneven = noisy || is_jagged(even, over_noise * scale_of(faces));
     if (uneven || !is_edge) even_out(even, (is_edge ? over_noise : over_steps) * scale_of(faces));
     const bool leaves = uneven || !is_edge;
     return {{name, Polyline{std::move(even)}}, confidence, leaves};

@@ -9,6 +9,10 @@ namespace lastflat::tolerance {
 /// cotangents and rest frames lose most digits, and Newton's method the rest.
 inline constexpr double degenerate_height = 1e-6;
 
+/// The same of a triangle that fills the rim of a feature: a rim has the vertices that it has, and
+/// the optimiser bears needles, but none without any height.
+inline constexpr double filling_height = 1e-9;
+
 /// Vertices nearer to each other than this share of the model's size are one: the digits of a
 /// float.
 inline constexpr double same_position = 1e-6;

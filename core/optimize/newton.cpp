@@ -247,7 +247,8 @@ struct ErrorWatch {
 
 /// The projected gradient that needles may leave, however near the minimum is.
 double least_gradient(const Problem& problem, const OptimalitySystem& system) {
-    const double rounding = system.gradient_round_off();
+    constexpr double arithmetic = 10.0;  // what sums and rows add; measured: 0.04 to 3
+    const double rounding = arithmetic * system.gradient_round_off();
     return std::max(tolerance::stalled_gradient,
                     rounding / std::sqrt(problem.distortion.total_area()));
 }

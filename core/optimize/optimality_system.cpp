@@ -251,8 +251,10 @@ void OptimalitySystem::hold_still(const Problem& problem, const Eigen::VectorXd&
     }
 }
 
-double OptimalitySystem::fill(const Problem& problem, const Iterate& iterate,
-                              const std::vector<Held>& held, HessianKind kind) {
+OptimalitySystem::DiagonalSize OptimalitySystem::fill(const Problem& problem,
+                                                      const Iterate& iterate,
+                                                      const std::vector<Held>& held,
+                                                      HessianKind kind) {
     std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
     add_terms(problem, iterate.x, kind);
     const auto unknowns = static_cast<Index>(iterate.x.size());
@@ -265,7 +267,6 @@ double OptimalitySystem::fill(const Problem& problem, const Iterate& iterate,
     }
     gradient_round_off_ = std::numeric_limits<double>::epsilon() * std::sqrt(round_off);
     const double mean = trace / unknowns;
-    // Of needles the diagonal has entries beyond all others: no measure for a shift.
     const auto middle = entries.begin() + unknowns / 2;
     std::nth_element(entries.begin(), middle, entries.end());
     hold_still(problem, iterate.x, tolerance::pin * mean);
@@ -282,7 +283,7 @@ double OptimalitySystem::fill(const Problem& problem, const Iterate& iterate,
         diagonal(unknown) = row.is_soft() ? -row.compliance : -regularisation_;
         if (!row.is_soft()) regularised_.push_back(unknown);
     }
-    return *middle;
+    return {*middle, mean};
 }
 
 void OptimalitySystem::shift_diagonal(double amount) {
@@ -297,8 +298,9 @@ void OptimalitySystem::factor(const Problem& problem, const Iterate& iterate,
     static constexpr std::array exact_shifts{tolerance::rigid_motion, 1e-4, 1e-3, 1e-2, 1e-1};
     static constexpr std::array projected_shifts{tolerance::rigid_motion, 1e-7, 1e-5, 1e-3};
     prepare(problem, iterate.x);
-    const auto attempt = [&](HessianKind attempted, std::span<const double> shifts) {
-        const double typical = fill(problem, iterate, held, attempted);
+    const auto attempt = [&](HessianKind attempted, std::span<const double> shifts,
+                             double DiagonalSize::*measure) {
+        const double typical = fill(problem, iterate, held, attempted).*measure;
         double shifted = 0.0;
         for (const double shift : shifts) {
             shift_diagonal((shift - shifted) * typical);
@@ -309,15 +311,18 @@ void OptimalitySystem::factor(const Problem& problem, const Iterate& iterate,
         }
         return false;
     };
-    if (kind == HessianKind::exact && attempt(HessianKind::exact, exact_shifts)) return;
-    if (attempt(HessianKind::projected, projected_shifts)) return;
+    if (kind == HessianKind::exact &&
+        attempt(HessianKind::exact, exact_shifts, &DiagonalSize::median))
+        return;
+    if (attempt(HessianKind::projected, projected_shifts, &DiagonalSize::median)) return;
+    if (attempt(HessianKind::projected, projected_shifts, &DiagonalSize::mean)) return;
     throw Error(ErrorCode::solver_failed, "a Newton step could not be computed");
 }
 
 bool OptimalitySystem::factor_exact(const Problem& problem, const Iterate& iterate,
                                     const std::vector<Held>& held, const Progress& progress) {
     prepare(problem, iterate.x);
-    const double typical = fill(problem, iterate, held, HessianKind::exact);
+    const double typical = fill(problem, iterate, held, HessianKind::exact).median;
     shift_diagonal(tolerance::rigid_motion * typical);
     return solver_.factor(matrix_, progress, problem.threads);
 }

@@ -57,9 +57,14 @@ private:
     [[nodiscard]] std::vector<VertexPair> vertex_pairs(const Problem& problem) const;
     [[nodiscard]] std::vector<UnknownBlock> elimination_blocks(const VertexGraph& graph,
                                                                const std::vector<Row>& rows) const;
-    /// Returns the median of the Hessian's diagonal.
-    double fill(const Problem& problem, const Iterate& iterate, const std::vector<Held>& held,
-                HessianKind kind);
+    /// Of the Hessian's diagonal. Of needles it has entries beyond all others: the median is the
+    /// measure for a shift that shortens no step needlessly, the mean for one above their
+    /// round-off.
+    struct DiagonalSize {
+        double median, mean;
+    };
+    DiagonalSize fill(const Problem& problem, const Iterate& iterate, const std::vector<Held>& held,
+                      HessianKind kind);
     void add_terms(const Problem& problem, const Eigen::VectorXd& x, HessianKind kind);
     void add_row(Index unknown, const Row& row, const Eigen::VectorXd& x, double multiplier,
                  HessianKind kind);

@@ -35,6 +35,7 @@ const std::vector<Feature> workshop{
      13.0,
      {0.0, -12.0, 0.0},
      curve_name::featherline},
+    {"knob on the topline", {60.0, -12.5, 93.2}, 9.0, {0.0, -3.0, 5.0}, curve_name::topline},
     {"hole in the sole", {60.0, 0.0, 10.0}, 9.0, {0.0, 0.0, 15.0}, ""},
 };
 
@@ -153,18 +154,22 @@ TEST_SUITE("core/defeature/defeature") {
     }
 
     TEST_CASE("a hole that runs through is closed at both ends, and said to run through") {
-        SurfaceMesh surface = weld(plate_with_hole());
-        Request fill;
-        fill.cut.features = FeatureRule::fill;
-        defeature(surface, fill);
-        REQUIRE(surface.filled.size() == 2);
-        CHECK(surface.filled[0].across_mm == doctest::Approx(6.0 * std::sqrt(2.0)));
-        CHECK(std::abs(surface.filled[0].centre.y() - surface.filled[1].centre.y()) ==
-              doctest::Approx(20.0));
-        REQUIRE(surface.repairs.size() == 1);
-        CHECK(surface.repairs[0].count == 1);
-        CHECK(surface.repairs[0].detail.find("1 of them ran through it") != std::string::npos);
-        CHECK(area_of(surface) == doctest::Approx(2.0 * (200.0 * 200.0 + 2.0 * 200.0 * 20.0)));
+        for (const bool is_fine : {false, true}) {  // a rim with corners alone, or points between
+            CAPTURE(is_fine);
+            SurfaceMesh surface =
+                weld(is_fine ? test::subdivided(plate_with_hole()) : plate_with_hole());
+            Request fill;
+            fill.cut.features = FeatureRule::fill;
+            defeature(surface, fill);
+            REQUIRE(surface.filled.size() == 2);
+            CHECK(surface.filled[0].across_mm == doctest::Approx(6.0 * std::sqrt(2.0)));
+            CHECK(std::abs(surface.filled[0].centre.y() - surface.filled[1].centre.y()) ==
+                  doctest::Approx(20.0));
+            REQUIRE(surface.repairs.size() == 1);
+            CHECK(surface.repairs[0].count == 1);
+            CHECK(surface.repairs[0].detail.find("1 of them ran through it") != std::string::npos);
+            CHECK(area_of(surface) == doctest::Approx(2.0 * (200.0 * 200.0 + 2.0 * 200.0 * 20.0)));
+        }
     }
 
     TEST_CASE("of a saw cut all goes, though its walls are hollow at their end alone") {
