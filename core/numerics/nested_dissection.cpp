@@ -1,10 +1,12 @@
 // Based on: George, "Nested Dissection of a Regular Finite Element Mesh", SIAM J. Numerical
-// Analysis 1973; Heath, Raghavan, "A Cartesian Parallel Nested Dissection Algorithm", SIAM J.
-// Matrix Analysis and Applications 1995.
+// Analysis 1973; George, Liu, "An Automatic Nested Dissection Algorithm for Irregular Finite
+// Element Problems", SIAM J. Numerical Analysis 1978 (level structures); Heath, Raghavan, "A
+// Cartesian Parallel Nested Dissection Algorithm", SIAM J. Matrix Analysis and Applications 1995.
 #include "core/numerics/nested_dissection.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace lastflat {
@@ -82,36 +84,71 @@ private:
 
     using Position = std::vector<Index>::iterator;
 
-    /// Sorts a part into its halves along a direction and marks them.
-    void halve(Position begin, Position middle, Position end, const Vec2& direction) {
-        for (auto v = begin; v != end; ++v) key_[at(*v)] = direction.dot(positions_[at(*v)]);
+    /// Sorts a part into its halves by the vertices' keys and marks them. Returns the length of the
+    /// shorter wall between them.
+    std::ptrdiff_t halve(Position begin, Position middle, Position end) {
         std::nth_element(begin, middle, end, [&](Index a, Index b) {
             return std::pair(key_[at(a)], a) < std::pair(key_[at(b)], b);
         });
         for (auto v = begin; v != end; ++v) side_[at(*v)] = v < middle ? 0 : 1;
+        const auto wall = [&](signed char side) {
+            return [this, side](Index v) { return faces_across(v, side); };
+        };
+        return std::min(std::count_if(begin, middle, wall(0)), std::count_if(middle, end, wall(1)));
+    }
+
+    void set_keys(Position begin, Position end, const Vec2& direction) {
+        for (auto v = begin; v != end; ++v) key_[at(*v)] = direction.dot(positions_[at(*v)]);
+    }
+
+    /// Of a part whose halves are marked: numbers the vertices from one as they are reached from
+    /// it; what does not hang together follows. Returns the last.
+    Index number_from(Index first, Position begin, Position end) {
+        for (auto v = begin; v != end; ++v) key_[at(*v)] = -1.0;
+        std::vector<Index> reached;
+        const auto reach = [&](Index v) {
+            if (side_[at(v)] == outside || key_[at(v)] >= 0.0) return;
+            key_[at(v)] = static_cast<double>(reached.size());
+            reached.push_back(v);
+        };
+        reach(first);
+        std::size_t next = 0;
+        for (auto seed = begin; seed != end; reach(*seed++)) {
+            for (; next < reached.size(); ++next) {
+                const Index v = reached[next];
+                for (Index e = graph_.begin[at(v)]; e < graph_.begin[at(v) + 1]; ++e)
+                    reach(graph_.neighbours[at(e)]);
+            }
+        }
+        return reached.back();
     }
 
     /// Halves a part across its longest direction, or at a slant to it where that leaves a shorter
-    /// wall: on regular meshes the walls follow the edges.
+    /// wall: on regular meshes the walls follow the edges. Where every wall is long, as of a strip
+    /// that was wound up, it is halved by the way along its edges.
     void halve_best(Position begin, Position middle, Position end) {
         constexpr std::ptrdiff_t worth_trying = 64;
+        constexpr double long_wall = 2.5;  // in units of the square root of all vertices
         const Vec2 longest = longest_direction({begin, end}), across(-longest.y(), longest.x());
-        if (end - begin < worth_trying) return halve(begin, middle, end, longest);
+        set_keys(begin, end, longest);
+        std::ptrdiff_t least = halve(begin, middle, end);
+        if (end - begin < worth_trying) return;
         Vec2 best = longest;
-        std::ptrdiff_t least = end - begin;
-        for (const double slant : {0.0, 0.4, -0.4}) {
+        for (const double slant : {0.4, -0.4}) {
             const Vec2 direction = longest + slant * across;
-            halve(begin, middle, end, direction);
-            const auto wall = [&](signed char side) {
-                return [this, side](Index v) { return faces_across(v, side); };
-            };
-            const std::ptrdiff_t length = std::min(std::count_if(begin, middle, wall(0)),
-                                                   std::count_if(middle, end, wall(1)));
+            set_keys(begin, end, direction);
+            const std::ptrdiff_t length = halve(begin, middle, end);
             if (length >= least) continue;
             least = length;
             best = direction;
         }
-        halve(begin, middle, end, best);
+        if (static_cast<double>(least) > long_wall * std::sqrt(static_cast<double>(end - begin))) {
+            const Index far = number_from(*std::min_element(begin, end), begin, end);
+            number_from(far, begin, end);
+            if (halve(begin, middle, end) < least) return;
+        }
+        set_keys(begin, end, best);
+        halve(begin, middle, end);
     }
 
     void split(const Part& part) {

@@ -27,7 +27,9 @@ struct EliminationBlock {
 /// Splits the graph again and again by a line across its longest direction; the vertices on the
 /// line come after those on its sides.
 ///
-/// Paper: [george-1973]; any lines instead of the grid's: [heath-1995].
+/// Where every line meets too much, it is split by the distance along the edges instead.
+///
+/// Paper: [george-1973]; any lines instead of the grid's: [heath-1995]; distances: [george-1978].
 /// In:    per vertex its position: neighbours should be near each other.
 /// Out:   every vertex in one block; blocks come after their children.
 [[nodiscard]] std::vector<EliminationBlock> nested_dissection(const VertexGraph& graph,

@@ -268,19 +268,31 @@ void BorderContact::for_hessian(const Eigen::VectorXd& x, HessianKind kind,
         take_ascending({pair.a, pair.b, pair.point}, pair_hessian(pair, x, kind), take);
 }
 
+/// When a border vertex first meets an edge, if within that part of the way; else infinite.
+double BorderContact::first_meeting(const Eigen::VectorXd& x, const Eigen::VectorXd& d,
+                                    double part) const {
+    double least = infinity;
+    for_candidates(x, x + part * d, 0.0,
+                   [&](const Loop& loop, std::size_t vertex, std::size_t edge) {
+                       const Index p = loop.vertices[vertex], a = loop.vertices[edge],
+                                   b = loop.vertices[(edge + 1) % loop.vertices.size()];
+                       const double t = meeting_time({point(x, a), point(x, b), point(x, p)},
+                                                     {point(d, a), point(d, b), point(d, p)});
+                       if (t <= part) least = std::min(least, t);
+                   });
+    return least;
+}
+
 double BorderContact::largest_step(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const {
-    double least = 1.0;
-    bool meets = false;
-    for_candidates(x, x + d, 0.0, [&](const Loop& loop, std::size_t vertex, std::size_t edge) {
-        const Index p = loop.vertices[vertex], a = loop.vertices[edge],
-                    b = loop.vertices[(edge + 1) % loop.vertices.size()];
-        const double t = meeting_time({point(x, a), point(x, b), point(x, p)},
-                                      {point(d, a), point(d, b), point(d, p)});
-        if (t > least) return;
-        least = t;
-        meets = true;
-    });
-    return meets ? 0.9 * least : 1.0;
+    // Of a long way first the beginning: there few pairs come into question.
+    constexpr double shortest = 1e-9, longer = 8.0;
+    const double mean_edge = clearance_ / clearance_share;
+    for (double part = std::clamp(mean_edge / d.lpNorm<Eigen::Infinity>(), shortest, 1.0);;
+         part = std::min(1.0, longer * part)) {
+        const double t = first_meeting(x, d, part);
+        if (t < infinity) return 0.9 * t;
+        if (part == 1.0) return 1.0;
+    }
 }
 
 }  // namespace lastflat

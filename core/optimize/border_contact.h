@@ -56,6 +56,8 @@ private:
     };
     [[nodiscard]] double clearance_of(const Loop& loop, std::size_t vertex, std::size_t edge) const;
     [[nodiscard]] bool crosses(const Eigen::VectorXd& x) const;
+    [[nodiscard]] double first_meeting(const Eigen::VectorXd& x, const Eigen::VectorXd& d,
+                                       double part) const;
     [[nodiscard]] Matrix6 pair_hessian(const ContactPair& pair, const Eigen::VectorXd& x,
                                        HessianKind kind) const;
     template <class Visit>

@@ -273,6 +273,23 @@ bool is_idle(const Problem& problem, const OptimalitySystem& system, const Activ
            is.worst_error <= least_error(problem, step.state.iterate.x);
 }
 
+/// Whether borders that slide along each other keep the steps short, and little comes of it.
+struct SlideWatch {
+    double energy = infinity;  ///< at the beginning of a round of steps
+    int steps = 0, blocked = 0;
+
+    [[nodiscard]] bool finds_no_gain(const Step& step) {
+        constexpr int round = 50;
+        constexpr double gain = 1e-3;
+        blocked += step.blocked ? 1 : 0;
+        if (++steps < round) return false;
+        const bool gained = step.state.is.energy < (1.0 - gain) * energy;
+        const bool slid = 2 * blocked > steps;
+        *this = {step.state.is.energy, 0, 0};
+        return slid && !gained && step.state.is.worst_error <= tolerance::locked_length;
+    }
+};
+
 enum class End { converged, contradictory, given_up };
 
 /// Steps until the end, where it leaves the state.
@@ -284,6 +301,7 @@ End run(const Problem& problem, const Approach& approach, OptimalitySystem& syst
     state = evaluated(problem, active, std::move(state.iterate));
     Momentum momentum{state.is.energy < near_isometry * area};
     ErrorWatch watch;
+    SlideWatch slide;
     int idle_steps = 0;
     while (iterations < max_iterations) {
         if (state.is.energy < approach.enough * area) return End::converged;
@@ -295,11 +313,13 @@ End run(const Problem& problem, const Approach& approach, OptimalitySystem& syst
         Step step = take_step(problem, system, active, state, momentum, progress);
         idle_steps = is_idle(problem, system, active, step) ? idle_steps + 1 : 0;
         const bool contradicts = watch.finds_contradiction(problem, step, iterations);
+        const bool slides = slide.finds_no_gain(step);
         state = std::move(step.state);
         if (idle_steps > most_idle_steps) return End::converged;
         if (approach.decrease > 0.0 && step.promised < approach.decrease * state.is.energy)
             return End::converged;
         if (contradicts) return End::contradictory;
+        if (slides) return End::given_up;
         if (step.length == 1.0 && state.is.distance_to_optimum() <= tolerance::nearly_optimal)
             state =
                 solve_conditions(problem, system, active, std::move(state), iterations, progress);

@@ -39,24 +39,30 @@ Index common_block(const std::vector<UnknownBlock>& blocks, Index a, Index b, In
 
 }  // namespace
 
-/// Makes room for what passes at x, or soon may.
+/// Makes room for what passes at x, or soon may. What passed before keeps its room, so that not
+/// every step needs a new analysis, until most of it has gone by.
 void OptimalitySystem::prepare(const Problem& problem, const Eigen::VectorXd& x) {
     constexpr double now = 1.0, soon = 3.0;
-    const bool is_new = positions_.empty();
-    const std::size_t before = passing_.size();
-    const auto add = [&](const EnergyTerm& term, double reach) {
-        const std::size_t known = passing_.size();
-        for (const auto& [a, b] : term.passing_pairs(x, reach)) passing_.insert(std::minmax(a, b));
-        return passing_.size() > known;
+    constexpr std::size_t most_gone_by = 2;  // per pair that passes
+    const auto passing = [&](double reach) {
+        std::set<VertexPair> pairs;
+        for (const EnergyTerm* term : problem.terms) {
+            for (const auto& [a, b] : term->passing_pairs(x, reach))
+                pairs.insert(std::minmax(a, b));
+        }
+        return pairs;
     };
-    for (const EnergyTerm* term : problem.terms) {
-        if (add(*term, now)) add(*term, soon);
-    }
-    if (is_new) positions_ = spread_positions(problem.domain, x);
-    if (is_new || passing_.size() > before) analyse(problem);
+    const std::set<VertexPair> here = passing(now);
+    const bool is_analysed = matrix_.size() > 0;
+    if (is_analysed && std::includes(passing_.begin(), passing_.end(), here.begin(), here.end()))
+        return;
+    std::set<VertexPair> near = passing(soon);
+    if (passing_.size() > most_gone_by * near.size()) passing_.clear();
+    passing_.merge(near);
+    analyse(problem, spread_positions(problem.domain, x));
 }
 
-void OptimalitySystem::analyse(const Problem& problem) {
+void OptimalitySystem::analyse(const Problem& problem, const Points2& positions) {
     const VertexGraph graph = vertex_graph(problem.domain.vertices(), vertex_pairs(problem));
     make_pattern(graph, problem.rows);
     slots_.clear();
@@ -64,7 +70,7 @@ void OptimalitySystem::analyse(const Problem& problem) {
         slots_.emplace_back();
         for (const Triangle& element : term->elements()) slots_.back().push_back(slots_of(element));
     }
-    solver_.analyse(matrix_, elimination_blocks(graph, problem.rows));
+    solver_.analyse(matrix_, elimination_blocks(graph, problem.rows, positions));
 }
 
 /// Every two vertices that share an element or a row's term, the smaller first; with repeats.
@@ -126,8 +132,9 @@ void OptimalitySystem::make_pattern(const VertexGraph& graph, const std::vector<
 /// Both coordinates of the dissection's vertices. A multiplier comes after all vertices of its
 /// row, in the block where the last of them are: before them its pivot would be next to nothing.
 std::vector<UnknownBlock> OptimalitySystem::elimination_blocks(const VertexGraph& graph,
-                                                               const std::vector<Row>& rows) const {
-    const auto dissection = nested_dissection(graph, positions_);
+                                                               const std::vector<Row>& rows,
+                                                               const Points2& positions) {
+    const auto dissection = nested_dissection(graph, positions);
     std::vector<UnknownBlock> blocks(dissection.size());
     std::vector<Index> block_of(at(graph.size()));
     for (std::size_t b = 0; b < dissection.size(); ++b) {
@@ -286,8 +293,8 @@ OptimalitySystem::DiagonalSize OptimalitySystem::fill(const Problem& problem,
     return {*middle, mean};
 }
 
-void OptimalitySystem::shift_diagonal(double amount) {
-    for (Index i = 0; i < 2 * static_cast<Index>(positions_.size()); ++i) diagonal(i) += amount;
+void OptimalitySystem::shift_diagonal(const Iterate& iterate, double amount) {
+    for (Index i = 0; i < static_cast<Index>(iterate.x.size()); ++i) diagonal(i) += amount;
 }
 
 void OptimalitySystem::factor(const Problem& problem, const Iterate& iterate,
@@ -303,7 +310,7 @@ void OptimalitySystem::factor(const Problem& problem, const Iterate& iterate,
         const double typical = fill(problem, iterate, held, attempted).*measure;
         double shifted = 0.0;
         for (const double shift : shifts) {
-            shift_diagonal((shift - shifted) * typical);
+            shift_diagonal(iterate, (shift - shifted) * typical);
             shifted = shift;
             if (solver_.factor(matrix_, progress, problem.threads) &&
                 solver_.negative_pivots() == static_cast<Index>(problem.rows.size()))
@@ -323,7 +330,7 @@ bool OptimalitySystem::factor_exact(const Problem& problem, const Iterate& itera
                                     const std::vector<Held>& held, const Progress& progress) {
     prepare(problem, iterate.x);
     const double typical = fill(problem, iterate, held, HessianKind::exact).median;
-    shift_diagonal(tolerance::rigid_motion * typical);
+    shift_diagonal(iterate, tolerance::rigid_motion * typical);
     return solver_.factor(matrix_, progress, problem.threads);
 }
 

@@ -52,11 +52,13 @@ public:
 private:
     using Slots = std::array<Index, 21>;  ///< of an element's lower triangle, row by row
     void prepare(const Problem& problem, const Eigen::VectorXd& x);
-    void analyse(const Problem& problem);
+    /// The positions, flat, are for the elimination order.
+    void analyse(const Problem& problem, const Points2& positions);
     void make_pattern(const VertexGraph& graph, const std::vector<Row>& rows);
     [[nodiscard]] std::vector<VertexPair> vertex_pairs(const Problem& problem) const;
-    [[nodiscard]] std::vector<UnknownBlock> elimination_blocks(const VertexGraph& graph,
-                                                               const std::vector<Row>& rows) const;
+    [[nodiscard]] static std::vector<UnknownBlock> elimination_blocks(const VertexGraph& graph,
+                                                                      const std::vector<Row>& rows,
+                                                                      const Points2& positions);
     /// Of the Hessian's diagonal. Of needles it has entries beyond all others: the median is the
     /// measure for a shift that shortens no step needlessly, the mean for one above their
     /// round-off.
@@ -69,14 +71,13 @@ private:
     void add_row(Index unknown, const Row& row, const Eigen::VectorXd& x, double multiplier,
                  HessianKind kind);
     void hold_still(const Problem& problem, const Eigen::VectorXd& x, double stiffness);
-    void shift_diagonal(double amount);
+    void shift_diagonal(const Iterate& iterate, double amount);
     void add_block(Index a, Index b, const Eigen::Matrix2d& block);
     [[nodiscard]] Slots slots_of(const Triangle& element) const;
     [[nodiscard]] Index slot(Index row, Index column) const;
     double& entry(Index row, Index column) { return matrix_.valuePtr()[slot(row, column)]; }
     double& diagonal(Index i) { return matrix_.valuePtr()[matrix_.outerIndexPtr()[i]]; }
 
-    Points2 positions_;                      ///< for the elimination order
     std::set<VertexPair> passing_;           ///< of elements that the pattern has room for
     std::vector<std::vector<Slots>> slots_;  ///< per term, of its elements that are always there
     SparseMatrix matrix_;                    ///< lower triangle

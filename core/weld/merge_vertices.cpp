@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
+#include <tuple>
 
 #include "core/numerics/disjoint_sets.h"
 
@@ -19,22 +21,19 @@ namespace {
 
 using Cell = std::array<std::int64_t, 3>;
 
-bool before(const Vec3& a, const Vec3& b) {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-}
-
-/// Vertices sorted by cell; those of one cell stand together.
+/// Vertices by cell, and where the cells' vertices begin; both ascending.
 struct Grid {
-    std::vector<Cell> cells;   ///< per vertex
-    std::vector<Index> order;  ///< vertices by cell, then by id
+    struct Placed {
+        Cell cell;
+        Index vertex;
+    };
+    std::vector<Placed> vertices;
+    std::vector<std::size_t> firsts;  ///< per cell, and the end
 
-    [[nodiscard]] const Cell& cell(Index v) const { return cells[static_cast<std::size_t>(v)]; }
-    [[nodiscard]] auto range(const Cell& wanted) const {
-        const auto first = std::lower_bound(order.begin(), order.end(), wanted,
-                                            [&](Index v, const Cell& c) { return cell(v) < c; });
-        const auto last = std::upper_bound(first, order.end(), wanted,
-                                           [&](const Cell& c, Index v) { return c < cell(v); });
-        return std::pair(first, last);
+    [[nodiscard]] std::size_t cells() const { return firsts.size() - 1; }
+    [[nodiscard]] const Cell& cell(std::size_t i) const { return vertices[firsts[i]].cell; }
+    [[nodiscard]] std::span<const Placed> of_cell(std::size_t i) const {
+        return {&vertices[firsts[i]], firsts[i + 1] - firsts[i]};
     }
 };
 
@@ -42,62 +41,78 @@ struct Grid {
 Grid make_grid(const Points3& positions, double tolerance) {
     const double side = tolerance / std::sqrt(3.0);
     Grid grid;
+    grid.vertices.reserve(positions.size());
     for (const Vec3& p : positions) {
-        grid.cells.push_back({std::llround(std::floor(p.x() / side)),
-                              std::llround(std::floor(p.y() / side)),
-                              std::llround(std::floor(p.z() / side))});
+        grid.vertices.push_back(
+            {{std::llround(std::floor(p.x() / side)), std::llround(std::floor(p.y() / side)),
+              std::llround(std::floor(p.z() / side))},
+             static_cast<Index>(grid.vertices.size())});
     }
-    grid.order = each_for_itself(positions.size());
-    std::stable_sort(grid.order.begin(), grid.order.end(),
-                     [&](Index a, Index b) { return grid.cell(a) < grid.cell(b); });
+    std::sort(grid.vertices.begin(), grid.vertices.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.cell, a.vertex) < std::tie(b.cell, b.vertex);
+    });
+    for (std::size_t i = 0; i < grid.vertices.size(); ++i) {
+        if (i == 0 || grid.vertices[i].cell != grid.vertices[i - 1].cell) grid.firsts.push_back(i);
+    }
+    grid.firsts.push_back(grid.vertices.size());
     return grid;
 }
 
 /// Joins the two cells' sets if any two of their vertices are within the tolerance. Each cell is
 /// one set already, so the first such pair is enough.
-void join_cells(const Points3& positions, double tolerance, const Grid& grid, const Cell& a,
-                const Cell& b, DisjointSets& sets) {
-    const auto [a_first, a_last] = grid.range(a);
-    const auto [b_first, b_last] = grid.range(b);
-    if (a_first == a_last || b_first == b_last || sets.find(*a_first) == sets.find(*b_first))
-        return;
+void join_cells(const Points3& positions, double tolerance, std::span<const Grid::Placed> a,
+                std::span<const Grid::Placed> b, DisjointSets& sets) {
+    if (sets.find(a.front().vertex) == sets.find(b.front().vertex)) return;
     std::size_t looked_at = 0;
     constexpr std::size_t enough = 4096;  // of pairs: denser cells than 64 x 64 are no surface
-    for (auto i = a_first; i != a_last; ++i) {
-        for (auto j = b_first; j != b_last; ++j) {
-            const auto distance =
-                (positions[static_cast<std::size_t>(*i)] - positions[static_cast<std::size_t>(*j)])
-                    .norm();
-            if (distance <= tolerance) return sets.join(*i, *j);
+    for (const auto& i : a) {
+        for (const auto& j : b) {
+            const double distance = (positions[at(i.vertex)] - positions[at(j.vertex)]).norm();
+            if (distance <= tolerance) return sets.join(i.vertex, j.vertex);
             if (++looked_at > enough) return;
         }
     }
 }
 
-void merge_within(const Points3& positions, double tolerance, DisjointSets& sets) {
-    const Grid grid = make_grid(positions, tolerance);
-    for (std::size_t i = 1; i < grid.order.size(); ++i) {
-        if (grid.cell(grid.order[i]) == grid.cell(grid.order[i - 1])) {
-            sets.join(grid.order[i], grid.order[i - 1]);
-        }
-    }
-    for (std::size_t i = 0; i < grid.order.size(); ++i) {
-        const Cell& here = grid.cell(grid.order[i]);
-        if (i > 0 && here == grid.cell(grid.order[i - 1])) continue;  // once a cell
-        for (std::int64_t k = 0; k < 125; ++k) {  // two cells reach as far as the tolerance
-            const Cell there{here[0] + k % 5 - 2, here[1] + k / 5 % 5 - 2, here[2] + k / 25 - 2};
-            if (here < there) join_cells(positions, tolerance, grid, here, there, sets);
-        }
+/// Joins each cell with the one that lies beside it by the given way.
+void join_along(const Points3& positions, double tolerance, const Grid& grid, const Cell& way,
+                DisjointSets& sets) {
+    std::size_t there = 0;
+    for (std::size_t here = 0; here < grid.cells(); ++here) {
+        const Cell& from = grid.cell(here);
+        const Cell wanted{from[0] + way[0], from[1] + way[1], from[2] + way[2]};
+        while (there < grid.cells() && grid.cell(there) < wanted) ++there;
+        if (there == grid.cells()) return;
+        if (grid.cell(there) == wanted)
+            join_cells(positions, tolerance, grid.of_cell(here), grid.of_cell(there), sets);
     }
 }
 
+void merge_within(const Points3& positions, double tolerance, DisjointSets& sets) {
+    const Grid grid = make_grid(positions, tolerance);
+    for (std::size_t i = 0; i < grid.cells(); ++i) {
+        for (const auto& other : grid.of_cell(i))
+            sets.join(grid.of_cell(i).front().vertex, other.vertex);
+    }
+    for (std::int64_t k = 63; k < 125; ++k)  // two cells reach as far as the tolerance
+        join_along(positions, tolerance, grid, {k / 25 - 2, k / 5 % 5 - 2, k % 5 - 2}, sets);
+}
+
 void merge_equal(const Points3& positions, DisjointSets& sets) {
-    const auto at = [&](Index v) -> const Vec3& { return positions[static_cast<std::size_t>(v)]; };
-    std::vector<Index> order = each_for_itself(positions.size());
-    std::stable_sort(order.begin(), order.end(),
-                     [&](Index a, Index b) { return before(at(a), at(b)); });
-    for (std::size_t i = 1; i < order.size(); ++i) {
-        if (at(order[i]) == at(order[i - 1])) sets.join(order[i], order[i - 1]);
+    struct Placed {
+        std::array<double, 3> position;
+        Index vertex;
+    };
+    std::vector<Placed> placed;
+    placed.reserve(positions.size());
+    for (const Vec3& p : positions)
+        placed.push_back({{p.x(), p.y(), p.z()}, static_cast<Index>(placed.size())});
+    std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
+        return std::tie(a.position, a.vertex) < std::tie(b.position, b.vertex);
+    });
+    for (std::size_t i = 1; i < placed.size(); ++i) {
+        if (placed[i].position == placed[i - 1].position)
+            sets.join(placed[i].vertex, placed[i - 1].vertex);
     }
 }
 

@@ -114,6 +114,27 @@ TEST_SUITE("core/constrain/minimise_distortion") {
         }
     }
 
+    TEST_CASE("far from isometry a bad start and a good one end at the same minimum") {
+        const auto deep_cup = [](double s, double t) {
+            const double x = 2.0 * s - 1.0, y = 2.0 * t - 1.0;
+            const double r = std::max(std::abs(x), std::abs(y)), angle = std::atan2(y, x);
+            const double radius = std::min(60.0 * r, 30.0), depth = std::max(0.0, 140.0 * r - 70.0);
+            return Vec3(radius * std::cos(angle), radius * std::sin(angle), depth);
+        };
+        const Region region = test::grid(24, 24, deep_cup);
+        const Minimum from_circle = flattened_from_circle(region);
+        REQUIRE(from_circle.converged);
+        CHECK(from_circle.energy > 1.2);
+        CHECK(from_circle.iterations < 60);
+        Chart near = from_circle.charts[0];
+        for (std::size_t i = 0; i < near.uv.size(); ++i)
+            near.uv[i] += 0.05 * Vec2(std::sin(7.0 * static_cast<double>(i)),
+                                      std::cos(11.0 * static_cast<double>(i)));
+        REQUIRE(flipped_triangles(region, near.uv).empty());
+        const Minimum from_near = test::minimised(region, near);
+        CHECK(from_near.energy == doctest::Approx(from_circle.energy).epsilon(1e-10));
+    }
+
     TEST_CASE("the minimum is one: small moves along the constraints cost energy") {
         const Region region = test::saddle(8);
         const Minimum minimum = flattened(region);

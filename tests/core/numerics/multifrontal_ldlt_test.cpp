@@ -84,6 +84,20 @@ TEST_SUITE("core/numerics/nested_dissection") {
         const Grid g = grid(32);
         CHECK(nested_dissection(g.graph, g.positions).back().vertices.size() == 32);
     }
+
+    TEST_CASE("a strip that is wound up is split across, wherever its vertices lie") {
+        constexpr Index length = 2000;
+        std::vector<std::pair<Index, Index>> edges;
+        Points2 positions;
+        for (Index v = 0; v < 2 * length; ++v) {
+            positions.emplace_back(std::cos(v % 2 + 0.05 * v), std::sin(v % 2 + 0.05 * v));
+            for (const Index next : {v + 1, v + 2}) {
+                if (next < 2 * length) edges.emplace_back(v, next);
+            }
+        }
+        for (const auto& block : nested_dissection(vertex_graph(2 * length, edges), positions))
+            CHECK(block.vertices.size() < 64);
+    }
 }
 
 TEST_SUITE("core/numerics/multifrontal_ldlt") {

@@ -75,6 +75,10 @@ TEST_SUITE("core/optimize/border_contact") {
         };
         CHECK(crossings(t) == 0);
         CHECK(crossings(1.2 * t) > 0);
+        for (const double share : {1.0 / 3.0, 40.0, 3000.0}) {  // however long the way is
+            CAPTURE(share);
+            CHECK(contact.largest_step(apart, share * way) == doctest::Approx(t / share));
+        }
     }
 
     TEST_CASE("a ramp that turns more than once ends at its optimum without crossing") {
@@ -89,6 +93,19 @@ TEST_SUITE("core/optimize/border_contact") {
             region, flatten_fixed_border(region, mean_value_weights, circle_border(region)));
         CHECK(measure_distortion(region, crossing.charts[0].uv).border_crossings > 0);
         CHECK(result.minimum.energy > crossing.energy);
+    }
+
+    TEST_CASE("a narrow ramp that winds up on itself is given up soon, and is sound") {
+        const Region region = test::grid(700, 1, [](double s, double t) {
+            const double angle = 6.0 * M_PI * s, r = 10.0 + 40.0 * t;
+            return Vec3(r * std::cos(angle), r * std::sin(angle), 15.0 * s);
+        });
+        const auto result = test::flattened({&region}, {});
+        const Metrics metrics = measure_distortion(region, result.minimum.charts[0].uv);
+        CHECK(metrics.flipped_triangles == 0);
+        CHECK(metrics.border_crossings == 0);
+        CHECK_FALSE(result.minimum.converged);
+        CHECK(result.minimum.iterations < 300);
     }
 
     TEST_CASE("locks hold in contact as well") {
