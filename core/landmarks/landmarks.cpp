@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "core/landmarks/centre_line.h"
 #include "core/landmarks/check_outcome.h"
 #include "core/landmarks/edge_line.h"
 #include "core/landmarks/furthest_pair.h"
@@ -17,73 +18,6 @@
 
 namespace lastflat {
 namespace {
-
-/// The longest closed section of the surface with a plane: the faces in their order, and where the
-/// section enters each.
-struct PlaneSection {
-    std::vector<Index> faces;
-    Points3 entries;
-};
-
-PlaneSection section_of(const SurfaceMesh& surface, const Vec3& origin, const Vec3& normal) {
-    const auto side = [&](Index v) { return normal.dot(surface.position(v) - origin) > 0.0; };
-    const auto crosses = [&](OpenMesh::HalfedgeHandle h) {
-        return !side(surface.mesh.from_vertex_handle(h).idx()) &&
-               side(surface.mesh.to_vertex_handle(h).idx());
-    };
-    std::vector<bool> seen(surface.mesh.n_faces(), false);
-    PlaneSection best;
-    double longest = 0.0;
-    for (const auto start : surface.mesh.halfedges()) {
-        if (!crosses(start) ||
-            seen[static_cast<std::size_t>(surface.mesh.face_handle(start).idx())])
-            continue;
-        PlaneSection section;
-        double length = 0.0;
-        OpenMesh::HalfedgeHandle h = start;
-        do {  // into the face over a side that rises, out of it over the one that falls
-            const Index face = surface.mesh.face_handle(h).idx();
-            seen[static_cast<std::size_t>(face)] = true;
-            const Vec3 a = surface.position(surface.mesh.from_vertex_handle(h).idx());
-            const Vec3 b = surface.position(surface.mesh.to_vertex_handle(h).idx());
-            const double below = normal.dot(a - origin), above = normal.dot(b - origin);
-            const Vec3 at = a + below / (below - above) * (b - a);
-            if (!section.entries.empty()) length += (at - section.entries.back()).norm();
-            section.faces.push_back(face);
-            section.entries.push_back(at);
-            do h = surface.mesh.next_halfedge_handle(h);
-            while (!crosses(surface.mesh.opposite_halfedge_handle(h)));
-            h = surface.mesh.opposite_halfedge_handle(h);
-        } while (h != start && section.faces.size() <= surface.mesh.n_faces());
-        if (length <= longest) continue;
-        longest = length;
-        best = std::move(section);
-    }
-    return best;
-}
-
-/// The stretches of a section that lie on marked faces, each as the points from end to end and, at
-/// both ends, `further` mm beyond.
-std::vector<Points3> stretches(const PlaneSection& section, const std::vector<bool>& marked,
-                               double further) {
-    const std::size_t n = section.faces.size();
-    const auto is_marked = [&](std::size_t i) {
-        return marked[static_cast<std::size_t>(section.faces[i % n])];
-    };
-    const auto entry = [&](std::size_t i) { return section.entries[i % n]; };
-    std::vector<Points3> found;
-    for (std::size_t begin = 0; begin < n; ++begin) {
-        if (!is_marked(begin) || is_marked(begin + n - 1)) continue;
-        std::size_t end = begin;
-        while (end < begin + n && is_marked(end)) ++end;
-        std::size_t first = begin + n, last = end + n;
-        while (first > end + 1 && (entry(first) - entry(begin)).norm() < further) --first;
-        while (last < first + n - 1 && (entry(last) - entry(end)).norm() < further) ++last;
-        found.emplace_back();
-        for (std::size_t k = first; k <= last; ++k) found.back().push_back(entry(k));
-    }
-    return found;
-}
 
 /// How far the line reaches to the left and to the right of the plane, at the waist.
 std::pair<double, double> waist(const Points3& line, const Vec3& heel, const Vec3& toe,
@@ -189,67 +123,6 @@ void find_sides(const SurfaceMesh& surface, const std::vector<bool>& upper, cons
     if (!lateral_vertex || !medial_vertex) fail_search("the upper has no two sides");
     found.cut.regions = {{region_name::lateral, lateral_vertex},
                          {region_name::medial, medial_vertex}};
-}
-
-/// The stretch of the upper in the plane through the heel, the toe and a third point that begins
-/// nearest to `from`.
-Points3 upper_section(const SurfaceMesh& surface, const std::vector<bool>& upper,
-                      const Landmarks& found, const Vec3& third, const Vec3& from, bool exact) {
-    const Vec3 normal =
-        (found.toe_point - found.heel_point).cross(third - found.heel_point).normalized();
-    // What was evened out has moved away from the faces' borders: the line goes beyond it.
-    const double further = 0.03 * (found.toe_point - found.heel_point).norm();
-    auto lines =
-        stretches(section_of(surface, found.heel_point, normal), upper, exact ? 0.0 : further);
-    const auto off = [&](const Points3& line) {
-        return std::min((line.front() - from).norm(), (line.back() - from).norm());
-    };
-    const auto best =
-        std::min_element(lines.begin(), lines.end(),
-                         [&](const Points3& a, const Points3& b) { return off(a) < off(b); });
-    if (best == lines.end()) fail_search("the middle plane does not meet the upper");
-    if ((best->back() - from).norm() < (best->front() - from).norm())
-        std::reverse(best->begin(), best->end());
-    return *best;
-}
-
-/// Ends a line, which goes too far, just beyond where it comes nearest to another in its last
-/// `within` mm.
-void end_at(const Points3& other, double within, Points3& line) {
-    constexpr double crossing = 1.0;  // mm on a last: so far it goes beyond
-    double beyond = 0.0, least = distance_to_line(other, line.back());
-    std::size_t nearest = line.size() - 1;
-    for (std::size_t i = line.size() - 1; i-- > 0 && beyond < within;) {
-        const double distance = distance_to_line(other, line[i]);
-        if (distance < least) {
-            least = distance;
-            nearest = i;
-        }
-        beyond += (line[i + 1] - line[i]).norm();
-    }
-    std::size_t kept = nearest + 1;
-    double further = 0.0;
-    for (; kept < line.size() && further < crossing + least; ++kept)
-        further += (line[kept] - line[kept - 1]).norm();
-    line.resize(kept);
-}
-
-void find_centre_line(const SurfaceMesh& surface, const std::vector<bool>& upper,
-                      const Points3& topline, bool exact, Landmarks& found) {
-    const auto [back, front] = furthest_pair(topline, found.forward);
-    const auto section = [&](const char* name, const Vec3& third, const Vec3& from) {
-        Points3 line = upper_section(surface, upper, found, third, from, exact);
-        if (!exact) {
-            const double within = 0.1 * (found.toe_point - found.heel_point).norm();
-            end_at(points_of(found.curves[1]), within, line);
-            std::reverse(line.begin(), line.end());
-            end_at(points_of(found.curves[0]), within, line);
-            std::reverse(line.begin(), line.end());
-        }
-        found.curves.push_back({name, Polyline{std::move(line)}});
-    };
-    section(curve_name::centre_front, front, found.toe_point);
-    section(curve_name::heel, back, found.heel_point);
 }
 
 /// Where an edge fades out, a line is bridged; on a rough surface nobody can tell where it fades.

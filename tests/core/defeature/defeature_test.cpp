@@ -153,6 +153,34 @@ TEST_SUITE("core/defeature/defeature") {
         }
     }
 
+    TEST_CASE("a nail where two lines meet is bridged by both, which still meet") {
+        const auto expected = find_landmarks(plain());
+        const auto line = [](const std::vector<CurveSource>& curves, const std::string& name) {
+            return points_of(*std::find_if(curves.begin(), curves.end(),
+                                           [&](const auto& curve) { return curve.name == name; }));
+        };
+        const Points3 centre = line(expected.curves, curve_name::centre_front);
+        const Vec3 corner = centre.front().z() > centre.back().z() ? centre.front() : centre.back();
+        const RawMesh nailed = with({"nail", corner, 8.0, {1.0, 0.0, 5.0}, ""});
+        SurfaceMesh surface = weld(nailed);
+        defeature(surface, {});
+        const Plan plan = make_plan(surface, {});
+        for (const std::string name : {curve_name::centre_front, curve_name::topline}) {
+            CAPTURE(name);
+            CHECK(named(plan.landmarks->warnings, name) == 1);
+            CHECK(std::abs(length_of(line(plan.request.curves, name)) -
+                           length_of(line(expected.curves, name))) < 1.0);
+        }
+        const Points3 bridged = line(plan.request.curves, curve_name::centre_front);
+        const Points3 topline = line(plan.request.curves, curve_name::topline);
+        CHECK(std::min(distance_to_line(topline, bridged.front()),
+                       distance_to_line(topline, bridged.back())) < 0.05);
+        Progress progress;
+        const FlattenResult result = flatten(write_model_obj(nailed), {}, progress);
+        REQUIRE(result.regions.size() == 2);
+        for (const auto& region : result.regions) CHECK(region.metrics.flipped_triangles == 0);
+    }
+
     TEST_CASE("a hole that runs through is closed at both ends, and said to run through") {
         for (const bool is_fine : {false, true}) {  // a rim with corners alone, or points between
             CAPTURE(is_fine);
