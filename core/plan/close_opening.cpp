@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <optional>
 
+#include "core/error.h"
 #include "core/landmarks/landmarks.h"
+#include "core/numerics/geometry.h"
 #include "core/numerics/least_area.h"
 #include "core/text.h"
 #include "core/weld/unit_of.h"
@@ -78,6 +81,34 @@ std::optional<std::string> line_at(const Landmarks& found, const Points3& rim) {
     return std::nullopt;
 }
 
+double loop_length(const Points3& points) {
+    double length = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        length += (points[(i + 1) % points.size()] - points[i]).norm();
+    return length;
+}
+
+/// Whether a flat piece with such a border has not half the surface's area.
+bool is_too_short(const SurfaceMesh& surface, double length) {
+    double area = 0.0;
+    for (const auto face : surface.mesh.faces())
+        area += 0.5 * doubled_area_vector(surface, corners_of(surface, face.idx())).norm();
+    return length * length < 2.0 * std::numbers::pi * area;
+}
+
+[[noreturn]] void refuse_hole(const Points3& rim, double length) {
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& p : rim) middle += p / static_cast<double>(rim.size());
+    throw Error(ErrorCode::region_invalid,
+                "the last has a hole around " + position_text(middle) + ", " +
+                    fixed_text(length, 0) +
+                    " mm around, that is neither its top nor its sole; close it in the model, or "
+                    "name the curves, cuts and regions. \"holes\": \"keep\" flattens the surface "
+                    "as it is")
+        .at_option({"holes"})
+        .at_position(middle);
+}
+
 }  // namespace
 
 void close_opening(SurfaceMesh& surface, const Request& request) {
@@ -97,11 +128,13 @@ void close_opening(SurfaceMesh& surface, const Request& request) {
     const double length_mm = (found.toe_point - found.heel_point).norm();
     if (length_mm < shortest_infant_mm || length_mm > longest_last_mm) return;
     const Points3 points = positions_of(surface, rim);
+    const double length = loop_length(points);
     const auto line = line_at(found, points);
-    if (!line) return;
-    double length = 0.0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        length += (points[(i + 1) % points.size()] - points[i]).norm();
+    if (!line) {
+        if (request.cut.holes == HoleRule::automatic && is_too_short(surface, length))
+            refuse_hole(points, length);
+        return;
+    }
     closed.repairs.push_back(
         {"opening_closed",
          "the rim of " + fixed_text(length, 1) + " mm was taken as the " + *line,

@@ -4,6 +4,7 @@
 
 #include "core/export/write_model.h"
 #include "core/flatten.h"
+#include "core/locate/surface_search.h"
 #include "core/sample/sample_last.h"
 #include "core/weld/weld.h"
 
@@ -54,6 +55,34 @@ TEST_SUITE("core/plan/close_opening") {
         }
     }
 
+    TEST_CASE("a last with a hole in its side is refused, with the place, unless holes are kept") {
+        RawMesh punched = without("");
+        const Vec3 side(75.0, -50.0, 55.0);
+        const Vec3 nearest = SurfaceSearch(weld(punched)).nearest(side).position;
+        std::size_t kept = 0;
+        for (const Triangle& t : punched.triangles) {
+            if ((punched.positions[at(t[0])] - nearest).norm() > 16.0)
+                punched.triangles[kept++] = t;
+        }
+        punched.triangles.resize(kept);
+        punched.triangle_labels.resize(kept);
+        SurfaceMesh surface = weld(punched);
+        REQUIRE(is_open(surface));
+        std::optional<Vec3> place;
+        try {
+            close_opening(surface, {});
+        } catch (const Error& error) {
+            CHECK(error.code() == ErrorCode::region_invalid);
+            place = error.position();
+        }
+        REQUIRE(place);
+        CHECK((*place - nearest).norm() < 8.0);
+        Request keep;
+        keep.cut.holes = HoleRule::keep;
+        close_opening(surface, keep);
+        CHECK(is_open(surface));
+    }
+
     TEST_CASE("an opening elsewhere stays, and so does one of a request that says how to cut") {
         RawMesh toeless = without("");
         std::size_t kept = 0;
@@ -63,7 +92,9 @@ TEST_SUITE("core/plan/close_opening") {
         toeless.triangles.resize(kept);
         toeless.triangle_labels.resize(kept);
         SurfaceMesh surface = weld(toeless);
-        close_opening(surface, {});
+        Request keep;
+        keep.cut.holes = HoleRule::keep;
+        close_opening(surface, keep);
         CHECK(is_open(surface));
         SurfaceMesh topless = weld(without("top"));
         Request asked;
