@@ -1,5 +1,6 @@
 #include "api/object_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -7,42 +8,91 @@ namespace lastflat::api {
 
 namespace {
 
-/// A value takes sixteen bytes of memory and may take two of text.
+/// A value takes sixteen bytes of memory, a list or an object ten times as many, and may take two
+/// of text.
 constexpr std::size_t most_values = 4'000'000;
+/// Of text beside what stands in strings, such as a model in base64.
+constexpr std::size_t most_bytes = std::size_t{32} << 20;
 
-}  // namespace
+/// Goes through a document without keeping it, and throws InvalidRequest at the first thing that
+/// breaks its limits.
+class Inspector : public nlohmann::json_sax<nlohmann::json> {
+public:
+    Inspector(std::size_t bytes, int depth) : bytes_(bytes), depth_(depth) {}
 
-nlohmann::json parse_json(std::string_view text, int depth) {
-    std::vector<std::set<std::string>> names;  // of the objects that are open
-    std::size_t values = 0;
-    const auto watch = [&](int level, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
-        if (level > depth) {
+    bool null() override { return count(); }
+    bool boolean(bool) override { return count(); }
+    bool number_integer(number_integer_t) override { return count(); }
+    bool number_unsigned(number_unsigned_t) override { return count(); }
+    bool number_float(number_float_t, const string_t&) override { return count(); }
+    bool binary(binary_t&) override { return count(); }
+    bool string(string_t& text) override {
+        in_strings_ += text.size();
+        return count();
+    }
+    bool start_object(std::size_t) override {
+        names_.emplace_back();
+        return open();
+    }
+    bool start_array(std::size_t) override { return open(); }
+    bool end_object() override {
+        names_.pop_back();
+        return close();
+    }
+    bool end_array() override { return close(); }
+    bool key(string_t& name) override {
+        if (!names_.back().insert(name).second)
             throw InvalidRequest(
-                "", "the JSON is nested deeper than " + std::to_string(depth) + " levels");
-        }
-        if (event == nlohmann::json::parse_event_t::value && ++values > most_values) {
-            throw InvalidRequest(
-                "", "the JSON has more than " + std::to_string(most_values) + " values");
-        }
-        if (event == nlohmann::json::parse_event_t::object_start) names.emplace_back();
-        if (event == nlohmann::json::parse_event_t::object_end) names.pop_back();
-        if (event == nlohmann::json::parse_event_t::key &&
-            !names.back().insert(parsed.get<std::string>()).second) {
-            throw InvalidRequest("", "the name '" + parsed.get<std::string>().substr(0, 80) +
-                                         "' stands twice in one object");
-        }
-        return true;
-    };
-    try {
-        return nlohmann::json::parse(text.begin(), text.end(), watch);
-    } catch (const nlohmann::json::exception& error) {
-        std::string what =
-            error.what();  // "[json.exception.parse_error.101] parse error at line ..."
+                "", "the name '" + name.substr(0, 80) + "' stands twice in one object");
+        return count();
+    }
+    bool parse_error(std::size_t, const std::string&,
+                     const nlohmann::json::exception& error) override {
+        // "[json.exception.parse_error.101] parse error at line ..."
+        std::string what = error.what();
         if (const auto end = what.find("] "); end != std::string::npos) what.erase(0, end + 2);
         // The library quotes what it read last, which may be bytes that no JSON can carry back.
         what = what.substr(0, what.find("; last read"));
         throw InvalidRequest("", "the JSON cannot be read: " + what);
     }
+
+    void check_bytes() const {
+        if (bytes_ - std::min(bytes_, in_strings_) > most_bytes)
+            throw InvalidRequest("", "the JSON has more than " + std::to_string(most_bytes) +
+                                         " bytes beside its texts");
+    }
+
+private:
+    bool count() {
+        if (++values_ > most_values)
+            throw InvalidRequest("", "the JSON has more than " + std::to_string(most_values) +
+                                         " values, names, lists and objects");
+        return true;
+    }
+    bool open() {
+        if (++level_ > depth_)
+            throw InvalidRequest(
+                "", "the JSON is nested deeper than " + std::to_string(depth_) + " levels");
+        return count();
+    }
+    bool close() {
+        --level_;
+        return true;
+    }
+
+    std::size_t bytes_;
+    int depth_, level_ = 0;
+    std::size_t values_ = 0, in_strings_ = 0;
+    std::vector<std::set<std::string>> names_;  // of the objects that are open
+};
+
+}  // namespace
+
+nlohmann::json parse_json(std::string_view text, int depth) {
+    Inspector inspector(text.size(), depth);
+    nlohmann::json::sax_parse(text.begin(), text.end(), &inspector);
+    inspector.check_bytes();
+    return nlohmann::json::parse(text.begin(), text.end());
 }
 
 std::string step(const std::string& pointer, const std::string& name) {

@@ -28,7 +28,9 @@ public:
     [[nodiscard]] const std::string& pointer() const { return *problem_.pointer; }
 };
 
-/// A document of at most `depth` levels and 4 million values, without repeated names.
+/// A document of at most `depth` levels, 4 million values, names, lists and objects, and 32 MiB
+/// beside what stands in strings, without repeated names. It is gone through once before anything
+/// is built.
 /// Throws: InvalidRequest saying where reading stopped.
 [[nodiscard]] nlohmann::json parse_json(std::string_view text, int depth);
 

@@ -53,6 +53,8 @@ inline constexpr CataloguedProblem problem_catalogue[] = {
     {"key_missing", 401},
     {"key_unknown", 401},
     {"no_keys", 401},
+    {"host_refused", 403},
+    {"origin_refused", 403},
     {"rate_exceeded", 429},
     {"key_queue_full", 429},
     {"key_in_flight", 409},

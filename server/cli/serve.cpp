@@ -19,6 +19,7 @@
 #include "server/routes/event_stream.h"
 #include "server/routes/job_list.h"
 #include "server/routes/job_routes.h"
+#include "server/routes/own_machine.h"
 #include "server/routes/result_routes.h"
 #include "server/routes/submit_routes.h"
 #include "server/routes/validate_route.h"
@@ -111,7 +112,7 @@ public:
         };
         main_.emplace(public_routes(), public_limits(settings_), with_access, settings_.listen);
         if (settings_.admin)
-            admin_.emplace(admin_routes(admin_services_), admin_limits(), hooks(metrics_),
+            admin_.emplace(admin_routes(admin_services_), admin_limits(), admin_hooks(),
                            *settings_.admin);
     }
 
@@ -161,6 +162,16 @@ private:
         return routes;
     }
 
+    /// On this machine's own address metrics are its user's alone; elsewhere probes ask by address.
+    [[nodiscard]] http::ServerHooks admin_hooks() {
+        http::ServerHooks with_pages = hooks(metrics_);
+        if (!is_loopback(settings_.admin->host)) return with_pages;
+        with_pages.admit = [this](http::Request& request) {
+            if (request.path == "/metrics") check_page(request, settings_.admin->host, {});
+        };
+        return with_pages;
+    }
+
     const Settings settings_;
     std::atomic<bool> draining_{false};
     const DataDirectory data_{settings_.data};
@@ -199,7 +210,7 @@ private:
     const JobWait wait_{jobs_, watch_, seats_, view_};
     const AdminServices admin_services_{jobs_, metrics_, draining_, settings_.workers,
                                         [this] { return runners_.busy(); }};
-    Access access_{keys_, {settings_.rate, settings_.allowed_origins}};
+    Access access_{keys_, {settings_.rate, settings_.allowed_origins, settings_.listen.host}};
     std::optional<Listener> main_, admin_;
 };
 

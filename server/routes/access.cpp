@@ -3,17 +3,24 @@
 #include <algorithm>
 
 #include "api/refusal.h"
+#include "server/routes/own_machine.h"
 #include "server/support/clock.h"
 
 namespace lastflat::server {
 namespace {
 
 constexpr std::int64_t window_ms = 60'000;
-constexpr std::string_view scheme = "Bearer ";
+constexpr std::string_view scheme = "bearer ";
 
-bool is_this_machine(const std::string& address) {
-    return address.rfind("127.", 0) == 0 || address == "::1" ||
-           address.rfind("::ffff:127.", 0) == 0;
+/// What follows the scheme, whose case does not matter.
+std::optional<std::string_view> bearer(std::string_view header) {
+    if (header.size() < scheme.size()) return std::nullopt;
+    for (std::size_t i = 0; i < scheme.size(); ++i) {
+        const char c = header[i];
+        if ((c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c) != scheme[i])
+            return std::nullopt;
+    }
+    return header.substr(scheme.size());
 }
 
 }  // namespace
@@ -26,19 +33,14 @@ void Access::admit(http::Request& request) {
 }
 
 void Access::check_key(http::Request& request) {
-    const std::string_view header = request.header("authorization");
     if (!keys_.has_keys()) {
-        // A proxy on this machine says whom it speaks for; that is not this machine.
-        const bool forwarded =
-            request.headers.contains("x-forwarded-for") || request.headers.contains("forwarded");
-        if (is_this_machine(request.remote_address) && !forwarded) return;
-        api::refuse("no_keys",
-                    "this service has no API key yet and answers clients on its own machine only; "
-                    "its operator makes one with: lastflat keys add NAME");
+        check_client(request);
+        check_page(request, rules_.listen_host, rules_.allowed_origins);
+        return;
     }
-    if (header.substr(0, scheme.size()) != scheme)
-        api::refuse("key_missing", "send your API key: Authorization: Bearer KEY");
-    const auto id = keys_.check(header.substr(scheme.size()));
+    const auto key = bearer(request.header("authorization"));
+    if (!key) api::refuse("key_missing", "send your API key: Authorization: Bearer KEY");
+    const auto id = keys_.check(*key);
     if (!id) api::refuse("key_unknown", "this API key is not known, or was revoked");
     request.principal = *id;
 }

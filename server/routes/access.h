@@ -12,16 +12,17 @@ namespace lastflat::server {
 struct AccessRules {
     std::size_t rate = 6000;                   ///< requests of one key in a minute; 0: any number
     std::vector<std::string> allowed_origins;  ///< web pages that may call (CORS)
+    std::string listen_host;                   ///< what the service may be asked as
 };
 
 /// Decides about every request before its body is read. With at least one key, every path under
-/// /v1 needs a good one; without any, only clients on this machine are answered.
+/// /v1 needs a good one; without any, only this machine's user is answered (own_machine.h).
 class Access {
 public:
     /// `keys` must outlive it.
     Access(KeyStore& keys, AccessRules rules) : keys_(keys), rules_(std::move(rules)) {}
 
-    /// Sets the principal and the headers of the answer. Throws: api::Refusal (401, 429),
+    /// Sets the principal and the headers of the answer. Throws: api::Refusal (401, 403, 429),
     /// StoreError.
     void admit(http::Request& request);
     /// What lets a web page of this origin read the answer: nothing unless it is on the list.

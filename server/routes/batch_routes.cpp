@@ -4,6 +4,7 @@
 #include "api/refusal.h"
 #include "server/routes/answers.h"
 #include "server/routes/submission.h"
+#include "server/support/large_body_turn.h"
 
 namespace lastflat::server {
 namespace {
@@ -49,7 +50,10 @@ private:
 Response post_batch(const BatchServices& service, const Request& request) {
     if (request.body.empty() || request.body.front().media_type != "application/json")
         api::refuse("media_type_unsupported", "a batch is sent as application/json");
-    const api::BatchRequest jobs(request.body.front().bytes);
+    const api::BatchRequest jobs = [&] {
+        const LargeBodyTurn turn(request.body.front().bytes.size());
+        return api::BatchRequest(request.body.front().bytes);
+    }();
     api::Batch batch{new_job_id(), {}};
     ItemRequest item_request(request);
     for (std::size_t i = 0; i < jobs.size(); ++i)

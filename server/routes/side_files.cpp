@@ -6,6 +6,7 @@
 #include "api/object_reader.h"
 #include "server/http/text.h"
 #include "server/routes/answers.h"
+#include "server/support/large_body_turn.h"
 
 namespace lastflat::server {
 namespace {
@@ -33,6 +34,7 @@ std::string with_buffers_inside(std::string_view gltf,
     if (gltf.find_first_not_of(" \t\r\n") == std::string::npos ||
         gltf[gltf.find_first_not_of(" \t\r\n")] != '{')
         api::refuse("part_unused", "only a glTF document (JSON) has buffers beside it");
+    const LargeBodyTurn turn(gltf.size());
     nlohmann::json document = api::parse_json(gltf, deepest_gltf);
     std::vector<bool> used(buffers.size(), false);
     if (document.contains("buffers") && document["buffers"].is_array()) {

@@ -8,6 +8,7 @@
 #include "api/refusal.h"
 #include "server/routes/side_files.h"
 #include "server/support/duration.h"
+#include "server/support/large_body_turn.h"
 #include "server/webhooks/post_message.h"
 
 namespace lastflat::server {
@@ -24,6 +25,7 @@ Submission checked(Submission submission, const api::FlattenRequest& request) {
 }
 
 Submission checked(Submission submission) {
+    const LargeBodyTurn turn(submission.request.size());
     const auto request = api::flatten_request_from_json(submission.request);
     return checked(std::move(submission), request);
 }
@@ -115,8 +117,10 @@ Submission submission_of(api::JsonSubmission json) {
 
 Submission read_submission(const http::Request& request) {
     if (is_form(request)) return from_parts(request);
-    if (!request.body.empty() && request.body.front().media_type == "application/json")
+    if (!request.body.empty() && request.body.front().media_type == "application/json") {
+        const LargeBodyTurn turn(request.body.front().bytes.size());
         return submission_of(api::json_submission_from_json(request.body.front().bytes));
+    }
     return from_model_alone(request);
 }
 

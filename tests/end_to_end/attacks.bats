@@ -18,6 +18,52 @@ memory() { awk '/VmHWM/ {print int($2 / 1024)}' "/proc/$server/status"; }
     assert_equal "$status" 200
 }
 
+@test "JSON of countless small values is refused before it fills memory, and others are answered meanwhile" {
+    start_server
+    python3 - "$BATS_TEST_TMPDIR" << 'END'
+import sys
+def write(name, text):
+    open(f"{sys.argv[1]}/{name}.json", "w").write(text)
+def within(list):
+    return '{"model": {"asset_id": "a"}, "request": {"curves": ' + list + '}}'
+write("lists", within("[" + "[]," * 60_000_000 + "[]]"))
+write("objects", within("[" + '{"a":1},' * 1_500_000 + '{"a":1}]'))
+write("spaces", within("[" + " " * (40 << 20) + "]"))
+write("megabyte", within("[" + '{"a":1},' * 125_000 + '{"a":1}]'))
+END
+    for kind in lists objects spaces megabyte; do
+        ask -H 'Content-Type: application/json' --data-binary "@$BATS_TEST_TMPDIR/$kind.json" "$url/v1/jobs"
+        assert_problem 422 invalid_request
+    done
+    echo "# at most $(memory) MiB" >&3
+    [[ -n ${LASTFLAT_SANITIZE:-} ]] || (( $(memory) < 700 ))
+    for _ in $(seq 64); do
+        curl -s -o "$BATS_TEST_TMPDIR/refused" -H 'Content-Type: application/json' --data-binary "@$BATS_TEST_TMPDIR/megabyte.json" "$url/v1/jobs" &
+    done
+    ask "$url/v1/jobs"
+    assert_equal "$status" 200
+    kill %% 2> "$BATS_TEST_TMPDIR/kill" || true
+    wait $(jobs -p | grep -v "^$server\$") || true
+}
+
+@test "without a key, web pages and proxies are refused, whatever they call this machine" {
+    start_server
+    ask -H 'Host: evil.example' "$url/v1/jobs"
+    assert_problem 403 host_refused
+    ask -H 'Origin: https://evil.example' -F "model=@$contract" "$url/v1/jobs"
+    assert_problem 403 origin_refused
+    ask -H 'Sec-Fetch-Site: cross-site' "$url/v1/jobs"
+    assert_problem 403 origin_refused
+    for proxy in 'Via: 1.1 gate' 'X-Real-IP: 203.0.113.9' 'X-Forwarded-Proto: https' 'CF-Connecting-IP: 203.0.113.9'; do
+        ask -H "$proxy" "$url/v1/jobs"
+        assert_problem 401 no_keys
+    done
+    ask -H 'Sec-Fetch-Site: cross-site' -H 'Sec-Fetch-Mode: navigate' "$url/docs"
+    assert_equal "$status" 200
+    ask -H "Origin: $url" "$url/v1/jobs"
+    assert_equal "$status" 200
+}
+
 @test "ranges of a result are one at a time and inside it" {
     make_sample
     start_server

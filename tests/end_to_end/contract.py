@@ -38,7 +38,9 @@ def is_near(a, b):
 def walk_http(walk):
     """What HTTP alone can go wrong by, on every operation; what is slow to answer is returned to be read later."""
     waiting = []
-    for method, path, _ in walk.contract.operations():
+    for method, path, operation in walk.contract.operations():
+        if "403" in operation["responses"]:
+            walk.expect(403, "host_refused" if method != "HEAD" else None, method, path, host="evil.example")
         walk.ask(method, path, query="?a=1&a=2")
         walk.ask(method, path, host="a b")
         walk.ask(method, path, headers=["Content-Length: 99999999999"])
@@ -54,6 +56,9 @@ def walk_http(walk):
         for method in ("GET", "POST", "PUT", "PATCH", "DELETE"):
             if method.lower() not in walk.contract.document["paths"][path]:
                 walk.expect(405, "method_not_allowed", method, path)
+    walk.expect(403, "origin_refused", "POST", "/v1/jobs", headers=["Origin: https://evil.example"], body=b"v 0 0 0")
+    walk.expect(403, "origin_refused", "GET", "/v1/jobs", headers=["Sec-Fetch-Site: cross-site"])
+    walk.expect(200, None, "GET", "/docs", headers=["Sec-Fetch-Site: cross-site", "Sec-Fetch-Mode: navigate"])
     for path in ("/", "/v1", "/v1/jobs/", "/v1/jobs/short"):
         walk.expect(404, "not_found", "GET", path)
     for method, path, _ in walk.contract.operations():
@@ -234,7 +239,7 @@ def walk_key_in_flight(walk, model):
     """Two requests with a key while the store is locked by somebody else: one waits for it, the other is told so at once."""
     held = sqlite3.connect(pathlib.Path(walk.server.folder.name, "jobs.sqlite"), isolation_level=None)
     held.execute("BEGIN IMMEDIATE")
-    head = f'POST /v1/jobs HTTP/1.1\r\nHost: x\r\nConnection: close\r\nIdempotency-Key: "twice"\r\nContent-Length: {len(model)}\r\n\r\n'
+    head = f'POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nIdempotency-Key: "twice"\r\nContent-Length: {len(model)}\r\n\r\n'
     asked = [walk.server.open(head.encode() + model) for _ in range(2)]
     refused = walk.server.first_answered(asked)
     asked.remove(refused)
@@ -256,7 +261,7 @@ def walk_conditions(walk, id):
         walk.expect(304, None, method, path, id=id, headers=["If-None-Match: " + headers["etag"]])
         if "206" in operation["responses"]:
             answer = walk.server.read(walk.server.open(
-                f"{method} {path_of(path, id)} HTTP/1.1\r\nHost: x\r\nConnection: close\r\nRange: bytes=1-10\r\n\r\n".encode()))
+                f"{method} {path_of(path, id)} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nRange: bytes=1-10\r\n\r\n".encode()))
             status, headers, body = answer
             walk.contract.seen.add((method, path, status))
             if status != 206 or len(body) != (10 if method == "GET" else 0) or not headers["content-range"].startswith("bytes 1-10/"):

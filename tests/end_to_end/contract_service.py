@@ -81,7 +81,7 @@ class Walk:
     def __init__(self, server, contract, headers=()):
         self.server, self.contract, self.headers = server, contract, list(headers)
 
-    def ask(self, method, path, *, id=NO_JOB, query="", headers=(), body=None, version="HTTP/1.1", host="x"):
+    def ask(self, method, path, *, id=NO_JOB, query="", headers=(), body=None, version="HTTP/1.1", host="localhost"):
         lines = [f"{method} {path_of(path, id)}{query} {version}", f"Host: {host}", "Connection: close", *self.headers, *headers]
         if body is not None:
             lines.append(f"Content-Length: {len(body)}")

@@ -36,7 +36,7 @@ def walk_keys(program, contract, example):
             one.expect(429, "key_queue_full", "POST", "/v1/jobs", body=slow)
             # One key's half of the places to wait: the other key still gets its own.
             waiting = one.expect(200, None, "GET", "/v1/jobs", query="?state=queued")["items"][0]["id"]
-            streams = [server.open(f"GET /v1/jobs/{waiting}/events HTTP/1.1\r\nHost: x\r\n{one.headers[0]}\r\n\r\n".encode()) for _ in range(2)]
+            streams = [server.open(f"GET /v1/jobs/{waiting}/events HTTP/1.1\r\nHost: localhost\r\n{one.headers[0]}\r\n\r\n".encode()) for _ in range(2)]
             for stream in streams:
                 stream.recv(100)
             one.expect(503, "streams_full", "GET", "/v1/jobs/{id}/events", id=waiting)
@@ -47,7 +47,7 @@ def walk_keys(program, contract, example):
                 if "429" in operation["responses"]:
                     three.expect(429, "rate_exceeded" if method != "HEAD" else None, method, path)
             other = two.expect(200, None, "GET", "/v1/jobs")["items"][0]["id"]
-            with server.open(f"GET /v1/jobs/{other}/events HTTP/1.1\r\nHost: x\r\n{two.headers[0]}\r\n\r\n".encode()) as stream:
+            with server.open(f"GET /v1/jobs/{other}/events HTTP/1.1\r\nHost: localhost\r\n{two.headers[0]}\r\n\r\n".encode()) as stream:
                 assert b" 200 " in stream.recv(100)
             for stream in streams:
                 stream.close()
@@ -148,13 +148,13 @@ def walk_busy(program, contract):
     server = Server(program)
     try:
         walk = Walk(server, contract)
-        half_sent = b"POST /v1/assets HTTP/1.1\r\nHost: x\r\nExpect: 100-continue\r\nContent-Length: 9\r\n\r\n"
+        half_sent = b"POST /v1/assets HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: 9\r\n\r\n"
         held = [server.open(half_sent) for _ in range(64)]
         for connection in held:  # a thread that asks for the body has nothing else to do until it comes
             answer = connection.recv(100)
             assert answer.startswith(b"HTTP/1.1 100 "), answer
         # One more than there are places to wait: when it is refused, the others have theirs.
-        waiting = [server.open(b"GET /v1/jobs HTTP/1.1\r\nHost: x\r\n\r\n") for _ in range(257)]
+        waiting = [server.open(b"GET /v1/jobs HTTP/1.1\r\nHost: localhost\r\n\r\n") for _ in range(257)]
         refused = server.first_answered(waiting)
         answer = contract.check("GET", "/v1/jobs", server.read(refused))
         assert answer.get("code") == "server_busy", answer
@@ -171,7 +171,7 @@ def walk_busy(program, contract):
             if (method, "/healthz", 503) in contract.seen:
                 continue
             server.process.send_signal(signal.SIGSTOP)
-            asked = [server.open(f"{method} /healthz HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n".encode()) for _ in range(400)]
+            asked = [server.open(f"{method} /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode()) for _ in range(400)]
             server.process.send_signal(signal.SIGCONT)
             for connection in asked:
                 contract.check(method, "/healthz", server.read(connection))

@@ -61,7 +61,7 @@ assert_given() {
         size=$(stat -c %s "$body") type=$(header Content-Type)
         ask -I "$url$job/result?format=$format"
         assert_equal "$status $(header Content-Length) $(header Content-Type)" "200 $size $type"
-        printf 'HEAD %s/result?format=%s HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n' "$job" "$format" > "$BATS_TEST_TMPDIR/head"
+        printf 'HEAD %s/result?format=%s HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n' "$job" "$format" > "$BATS_TEST_TMPDIR/head"
         exec 4<> "/dev/tcp/127.0.0.1/${url##*:}"
         cat "$BATS_TEST_TMPDIR/head" >&4
         assert_equal "$(timeout 10 cat <&4 | tr -d '\r' | sed '1,/^$/d' | wc -c)" 0

@@ -145,7 +145,7 @@ PYTHON
     # Two bodies that never come hold both connections.
     for descriptor in 5 6; do
         eval "exec $descriptor<> /dev/tcp/127.0.0.1/${url##*:}"
-        printf 'POST /v1/jobs HTTP/1.1\r\nHost: x\r\nContent-Length: 100\r\n\r\n' >&$descriptor
+        printf 'POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Length: 100\r\n\r\n' >&$descriptor
     done
     wait_until 3 is_taken
     begun=$(milliseconds)
@@ -195,7 +195,7 @@ is_taken() { ! curl -s --max-time 0.3 "$url$job" -o "$BATS_TEST_TMPDIR/taken"; }
     ask -H 'Prefer: wait=1' -H "If-None-Match: $tag" "$url$job"
     assert_equal "$status" 304
     exec 5<> "/dev/tcp/127.0.0.1/${url##*:}"
-    printf 'GET %s HTTP/1.1\r\nHost: x\r\nConnection: close\r\nPrefer: wait=30\r\nIf-None-Match: %s\r\n\r\n' "$job" "$tag" >&5
+    printf 'GET %s HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nPrefer: wait=30\r\nIf-None-Match: %s\r\n\r\n' "$job" "$tag" >&5
     begun=$(milliseconds)
     ask -X POST "$url$job/cancel"  # served when the poll has left it the one connection, and waits
     timeout 30 cat <&5 | sed '1,/^\r$/d' > "$BATS_TEST_TMPDIR/polled"

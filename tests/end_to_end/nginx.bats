@@ -74,8 +74,8 @@ teardown() {
     assert_equal "$status" 413
     ask -H 'Content-Encoding: gzip' --data-binary "@$sample/last.obj" "$url/v1/jobs"
     assert_problem 415 content_encoding_not_supported
-    for head in 'GET /healthz HTTP/1.1\r\n\r\n' 'POST /v1/jobs HTTP/1.1\r\nHost: x\r\nContent-Length: 4\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n' \
-        'POST /v1/jobs HTTP/1.1\r\nHost: x\r\nContent-Length: 4\r\nContent-Length: 5\r\n\r\n'; do
+    for head in 'GET /healthz HTTP/1.1\r\n\r\n' 'POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Length: 4\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n' \
+        'POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Length: 4\r\nContent-Length: 5\r\n\r\n'; do
         exec 4<> "/dev/tcp/127.0.0.1/${url##*:}"
         printf "$head" >&4
         assert_equal "$(timeout 5 head -n 1 <&4 | cut -d' ' -f2)" 400

@@ -63,7 +63,7 @@ def multipart(size):
 
 def upload(port, head, body):
     with socket.create_connection(("127.0.0.1", port), 60) as client:
-        client.sendall(b"POST /v1/assets HTTP/1.1\r\nHost: a\r\nConnection: close\r\n" + head + b"\r\n")
+        client.sendall(b"POST /v1/assets HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + head + b"\r\n")
         for piece in body:
             client.sendall(piece)
         answer = b""

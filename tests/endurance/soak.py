@@ -73,7 +73,7 @@ class Soak:
 
     def rude(self, chance):
         with socket.create_connection(("127.0.0.1", self.service.port), timeout=30) as connection:
-            connection.sendall(b"POST /v1/jobs HTTP/1.1\r\nHost: x\r\nContent-Length: 100000\r\n\r\nv 0 0 0\n")
+            connection.sendall(b"POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Length: 100000\r\n\r\nv 0 0 0\n")
             time.sleep(chance.uniform(0, 0.5))
         held = [socket.create_connection(("127.0.0.1", self.service.port), timeout=30) for _ in range(20)]
         for connection in held:

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "core/load/load_model.h"
+#include "core/weld/merge_vertices.h"
 #include "tests/helpers/errors.h"
 
 namespace lastflat {
@@ -33,6 +34,32 @@ double volume(const SurfaceMesh& surface) {
 }  // namespace
 
 TEST_SUITE("core/weld") {
+    TEST_CASE("vertices within the tolerance are merged whichever way they lie") {
+        constexpr double tolerance = 0.1;
+        Points3 positions;
+        std::size_t pairs = 0;
+        for (int i = -3; i <= 3; ++i) {
+            for (int j = -3; j <= 3; ++j) {
+                for (int k = -3; k <= 3; ++k) {
+                    if (i == 0 && j == 0 && k == 0) continue;
+                    const Vec3 way = Vec3(i, j, k).normalized();
+                    for (const double share : {0.5, 0.999, 1.001}) {  // the last stays apart
+                        const Vec3 at(static_cast<double>(pairs++), 0.03 * i, 0.01 * j);
+                        positions.push_back(at);
+                        positions.push_back(at + share * tolerance * way);
+                    }
+                }
+            }
+        }
+        const auto merged = merge_vertices(positions, tolerance);
+        for (std::size_t p = 0; p < pairs; ++p) {
+            CAPTURE(p);
+            const bool is_near = p % 3 != 2;
+            CHECK((merged[2 * p] == merged[2 * p + 1]) == is_near);
+            CHECK(merged[2 * p] == static_cast<Index>(2 * p));
+        }
+    }
+
     TEST_CASE("what is not a surface is refused with its place") {
         CHECK(has(
             weld_error("v 0 0 0\nv 0 0 2\nv 1 0 0\nv 0 1 0\nv -1 0 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n"),

@@ -71,10 +71,10 @@ class Attacks:
         self.body_bytes = options.body_bytes
 
     def get_head(self, headers=b"Connection: close\r\n"):
-        return b"GET " + self.get + b" HTTP/1.1\r\nHost: a\r\n" + headers + b"\r\n"
+        return b"GET " + self.get + b" HTTP/1.1\r\nHost: localhost\r\n" + headers + b"\r\n"
 
     def post_head(self, headers=b""):
-        return b"POST " + self.post + b" HTTP/1.1\r\nHost: a\r\n" + headers + b"\r\n"
+        return b"POST " + self.post + b" HTTP/1.1\r\nHost: localhost\r\n" + headers + b"\r\n"
 
     def pipelined(self):
         """Three requests in one segment, the last of which asks to close: three answers."""
@@ -111,14 +111,14 @@ class Attacks:
                  self.get_head(b"Content-Length: 40\r\n") + self.get_head(), 400)
         self.pipelined()
         self.row("no Host", b"GET " + self.get + b" HTTP/1.1\r\n\r\n", 400)
-        self.row("absolute URI", b"GET http://a/ HTTP/1.1\r\nHost: a\r\n\r\n", 400)
-        self.row("unknown method", b"BREW / HTTP/1.1\r\nHost: a\r\n\r\n", 501)
-        self.row("wrong method", b"DELETE " + self.get + b" HTTP/1.1\r\nHost: a\r\n\r\n", 405)
+        self.row("absolute URI", b"GET http://localhost/ HTTP/1.1\r\nHost: localhost\r\n\r\n", 400)
+        self.row("unknown method", b"BREW / HTTP/1.1\r\nHost: localhost\r\n\r\n", 501)
+        self.row("wrong method", b"DELETE " + self.get + b" HTTP/1.1\r\nHost: localhost\r\n\r\n", 405)
         self.row("encoded CR LF in a header", self.get_head(b"X: a%20b%0d%0aX: y\r\n"), 400)
         self.row("NUL in a header", self.get_head(b"X: a\0b\r\n"), 400)
         for text in (b"%00", b"%0d%0a", b"%7f", b"%ff"):
-            self.row(f"{text} in the path", b"GET /a" + text + b" HTTP/1.1\r\nHost: a\r\n\r\n", 400)
-        self.row("%2f in the path", b"GET /a%2fb HTTP/1.1\r\nHost: a\r\n\r\n", 404)
+            self.row(f"{text} in the path", b"GET /a" + text + b" HTTP/1.1\r\nHost: localhost\r\n\r\n", 400)
+        self.row("%2f in the path", b"GET /a%2fb HTTP/1.1\r\nHost: localhost\r\n\r\n", 404)
         self.row("folded header", self.get_head(b"X: a\r\n b\r\n"), 400)
         self.row("bare LF", b"GET / HTTP/1.1\nHost: a\n\n", 400)
         self.row("TLS hello", b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + bytes(500), 400)
@@ -126,7 +126,7 @@ class Attacks:
         self.row("range past the end", self.get_head(b"Connection: close\r\nRange: bytes=0-9999999999\r\n"), 200)
 
     def sizes(self):
-        self.row("URI of 8180 bytes", b"GET /" + b"a" * 8180 + b" HTTP/1.1\r\nHost: a\r\n\r\n", 414)
+        self.row("URI of 8180 bytes", b"GET /" + b"a" * 8180 + b" HTTP/1.1\r\nHost: localhost\r\n\r\n", 414)
         self.row("header of 20000 bytes", self.get_head(b"X: " + b"a" * 20000 + b"\r\n"), 431)
         self.row("101 headers", self.get_head(b"".join(b"X%d: y\r\n" % i for i in range(100))), 431)
         self.row("100000 headers", self.get_head(b"X: y\r\n" * 100000), 431)

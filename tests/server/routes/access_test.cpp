@@ -59,13 +59,20 @@ TEST_SUITE("server/routes/access") {
         CHECK(s.status(s.request("", "::ffff:127.0.0.1")) == 200);
         CHECK(s.status(s.request("", "192.168.0.7")) == 401);
         CHECK(s.status(s.request("", "1270.0.0.1")) == 401);
-        http::Request proxied = s.request("");
-        proxied.headers["x-forwarded-for"] = "203.0.113.9";
-        CHECK(s.status(proxied) == 401);
+        for (const char* by : {"x-forwarded-for", "x-forwarded-proto", "x-real-ip", "via",
+                               "forwarded", "cf-connecting-ip", "true-client-ip"}) {
+            CAPTURE(by);
+            http::Request proxied = s.request("");
+            proxied.headers[by] = "203.0.113.9";
+            CHECK(s.status(proxied) == 401);
+        }
         const std::string key = s.keys.add("one");
         CHECK(s.status(s.request("")) == 401);
         CHECK(s.status(s.request("wrong")) == 401);
         CHECK(s.status(s.request(key, "192.168.0.7")) == 200);
+        http::Request loud = s.request("");
+        loud.headers["authorization"] = "BEARER " + key;
+        CHECK(s.status(loud) == 200);
         http::Request basic = s.request("");
         basic.headers["authorization"] = "Basic " + key;
         CHECK(s.status(basic) == 401);
@@ -75,8 +82,44 @@ TEST_SUITE("server/routes/access") {
         CHECK(s.status(s.request("")) == 401);  // with its last key revoked it does not open again
     }
 
+    TEST_CASE("without a key, a page of another origin or under another name is refused") {
+        AccessSetting s({0, {"https://studio.example"}, "10.1.2.3"});
+        const auto with = [&](const std::string& host, const std::string& name = "",
+                              const std::string& value = "", const std::string& key = "") {
+            http::Request request = s.request(key);
+            request.headers["host"] = host;
+            if (!name.empty()) request.headers[name] = value;
+            return s.status(request);
+        };
+        for (const char* own : {"localhost", "LOCALHOST:8080", "last.localhost:8080", "127.0.0.1",
+                                "127.1.2.3:80", "[::1]:8080", "10.1.2.3:8080"}) {
+            CAPTURE(own);
+            CHECK(with(own) == 200);
+        }
+        for (const char* other : {"evil.example", "evil.example:8080", "127.0.0.1.evil.example",
+                                  "localhost.evil.example", "notlocalhost", "10.1.2.4", "[::2]"}) {
+            CAPTURE(other);
+            CHECK(with(other) == 403);
+        }
+        CHECK(with("localhost:8080", "origin", "http://localhost:8080") == 200);
+        CHECK(with("localhost:8080", "origin", "https://studio.example") == 200);
+        CHECK(with("localhost:8080", "sec-fetch-site", "same-origin") == 200);
+        for (const char* foreign :
+             {"https://evil.example", "null", "http://localhost:8080.evil.example",
+              "http://localhost:3000"}) {
+            CAPTURE(foreign);
+            CHECK(with("localhost:8080", "origin", foreign) == 403);
+        }
+        CHECK(with("localhost:8080", "sec-fetch-site", "cross-site") == 403);
+        http::Request page = s.request("", "127.0.0.1", "/docs");
+        page.headers["sec-fetch-site"] = "cross-site";
+        CHECK(s.status(page) == 200);
+        const std::string key = s.keys.add("one");
+        CHECK(with("lasts.example", "origin", "https://evil.example", key) == 200);
+    }
+
     TEST_CASE("a key has its rate, says what is left, and shares it with nobody") {
-        AccessSetting s({3, {}});
+        AccessSetting s({3, {}, ""});
         const std::string one = s.keys.add("one"), two = s.keys.add("two");
         http::Request first = s.request(one);
         s.access.admit(first);
@@ -90,9 +133,10 @@ TEST_SUITE("server/routes/access") {
     }
 
     TEST_CASE("only the web pages that are allowed may call") {
-        AccessSetting s({0, {"https://studio.example"}});
+        AccessSetting s({0, {"https://studio.example"}, ""});
+        const std::string key = s.keys.add("one");
         const auto allowed = [&](const char* origin) {
-            http::Request request = s.request("");
+            http::Request request = s.request(key);
             request.headers["origin"] = origin;
             s.access.admit(request);
             return header(request, "Access-Control-Allow-Origin");
