@@ -11,8 +11,7 @@ request=${2:-}
 [ -n "$request" ] && request=$(realpath "$request")
 cd "$root"
 
-tests/install.sh build
-command -v curl >/dev/null && command -v jq >/dev/null || tests/install.sh test
+tests/install.sh build client
 echo "building (a few minutes the first time) ..."
 log=$(mktemp)
 if ! { cmake --preset release && cmake --build --preset release --target lastflat; } >"$log" 2>&1; then

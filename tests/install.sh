@@ -1,22 +1,25 @@
 #!/usr/bin/env bash
-# Installs what is missing, from Debian 12's packages alone. Usage: install.sh run|build|test ...
-#   run    what the program needs to run
-#   build  what it needs to be built
-#   test   what its tests, client examples and checks need beside that
+# Installs what is missing, from Debian 12's packages alone. Usage: install.sh run|build|client|test ...
+#   run      what the program needs to run
+#   build    what it needs to be built
+#   client   what the client examples need
+#   test     what its tests, client examples and checks need beside that
 set -euo pipefail
 
 run=(libcpp-httplib0.11 libtinygltf2d libdraco7 libmeshoptimizer2d libopenmesh1 libspdlog1.10 libsqlite3-0 libssl3 libdeflate0 libcurl4 curl ca-certificates)
 build=(g++ cmake ninja-build pkg-config libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev
        nlohmann-json3-dev libcpp-httplib-dev libspdlog-dev libcli11-dev libsqlitecpp-dev libsqlite3-dev libssl-dev libdeflate-dev libcurl4-openssl-dev doctest-dev)
-test=(curl jq bats python3 python3-jsonschema procps nginx-light zlib1g-dev clang-format-14 clang-tidy-14 libcgal-dev)
+client=(curl jq)
+test=("${client[@]}" bats python3 python3-jsonschema procps nginx-light zlib1g-dev clang-format-14 clang-tidy-14 libcgal-dev)
 
 wanted=()
 for set in "$@"; do
     case "$set" in
         run) wanted+=("${run[@]}") ;;
         build) wanted+=("${build[@]}") ;;
+        client) wanted+=("${client[@]}") ;;
         test) wanted+=("${test[@]}") ;;
-        *) echo "install.sh: unknown set '$set' (run, build, test)" >&2; exit 2 ;;
+        *) echo "install.sh: unknown set '$set' (run, build, client, test)" >&2; exit 2 ;;
     esac
 done
 

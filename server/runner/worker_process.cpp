@@ -14,6 +14,7 @@
 #include <cstring>
 #include <filesystem>
 #include <system_error>
+#include <thread>
 
 #include "server/support/descriptor.h"
 #include "server/support/version.h"
@@ -26,6 +27,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int look_ms = 50;
 constexpr std::size_t most_message_bytes = 64u << 20;
 constexpr std::size_t most_said_bytes = 4096;
+constexpr std::chrono::seconds time_to_end{5};
 
 struct Pipe {
     Pipe() : Pipe(make()) {}
@@ -125,6 +127,21 @@ public:
         return status;
     }
 
+    /// The same once both streams have ended; who does not end with them is killed.
+    [[nodiscard]] int wait_briefly() {
+        const auto deadline = Clock::now() + time_to_end;
+        int status = 0;
+        while (Clock::now() < deadline) {
+            if (::waitpid(process_, &status, WNOHANG) == process_) {
+                process_ = -1;
+                return status;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        kill();
+        return wait();
+    }
+
     std::string messages;  ///< not yet taken
     std::string said;      ///< on standard error
 
@@ -214,7 +231,7 @@ ProcessEnd run_worker_process(WorkOrder order, const ProcessLimits& limits,
         if (Clock::now() > deadline) return stop(Kind::timed_out, "");
     }
     if (!supervision.follow()) return stop(Kind::crashed, "it said nonsense");
-    return supervision.ended(worker.wait());
+    return supervision.ended(worker.wait_briefly());
 }
 
 }  // namespace lastflat::server

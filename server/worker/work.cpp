@@ -32,8 +32,11 @@ constexpr bool memory_can_be_limited = false;  // sanitizers map terabytes of sh
 constexpr bool memory_can_be_limited = true;
 #endif
 
-void limit(int resource, std::uint64_t most) {
-    const rlimit limits{most, most};
+constexpr std::uint64_t cpu_grace = 2;  // seconds
+
+/// What goes beyond is told so by a signal, and `grace` later by one that cannot be ignored.
+void limit(int resource, std::uint64_t most, std::uint64_t grace = 0) {
+    const rlimit limits{most, most + grace};
     setrlimit(static_cast<__rlimit_resource>(resource), &limits);
 }
 
@@ -45,7 +48,8 @@ void limit_self(const WorkOrder& order) {
     // Sockets that the service opened in the moment between two calls do not belong here.
     close_range(3, ~0u, 0);
     limit(RLIMIT_CORE, 0);
-    if (order.cpu_seconds > 0) limit(RLIMIT_CPU, static_cast<std::uint64_t>(order.cpu_seconds));
+    if (order.cpu_seconds > 0)
+        limit(RLIMIT_CPU, static_cast<std::uint64_t>(order.cpu_seconds), cpu_grace);
     if (order.memory_mb > 0 && memory_can_be_limited)
         limit(RLIMIT_DATA, static_cast<std::uint64_t>(order.memory_mb) << 20);
     [[maybe_unused]] const int now = nice(niceness);

@@ -128,6 +128,7 @@ TEST_SUITE("server/runner/worker_process") {
         CHECK(kind("echo nonsense; sleep 10") == Kind::crashed);
         CHECK(kind("echo 'progress {\"stage\": 7}'") == Kind::crashed);
         CHECK(kind("exec sleep 10") == Kind::timed_out);
+        CHECK(kind("exec >&- 2>&-; exec sleep 60") == Kind::lost);
         CHECK(kind("echo 'retry the disk is full'") == Kind::retry);
         CHECK(std::get<Unfinished>(s.run(s.order(square), [] { return true; })).kind ==
               Kind::stopped);
