@@ -2,6 +2,7 @@
 
 #include "api/base64.h"
 #include "api/object_reader.h"
+#include "core/load/first_bytes.h"
 
 namespace lastflat::api {
 
@@ -39,6 +40,10 @@ JsonSubmission read_json_submission(const Field& field, const RequestLimits& lim
 JsonSubmission json_submission_from_json(std::string_view text, const RequestLimits& limits) {
     const nlohmann::json document = parse_json(text, limits.depth + 1);
     return read_json_submission({document, ""}, limits);
+}
+
+void check_model_bytes(std::string_view model) {
+    check_first_bytes(model);
 }
 
 }  // namespace lastflat::api

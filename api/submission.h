@@ -28,4 +28,8 @@ struct JsonSubmission {
 [[nodiscard]] JsonSubmission json_submission_from_json(std::string_view text,
                                                        const RequestLimits& limits = {});
 
+/// What the first bytes show to be no model is refused before a job is made.
+/// Throws: Error (`unsupported_model`, `unreadable_model`).
+void check_model_bytes(std::string_view model);
+
 }  // namespace lastflat::api

@@ -1,5 +1,6 @@
 #include "core/load/load_model.h"
 
+#include "core/load/first_bytes.h"
 #include "core/load/read_gltf.h"
 #include "core/load/read_obj.h"
 #include "core/load/read_ply.h"
@@ -21,17 +22,6 @@ char first_visible(std::string_view bytes) {
     return i == std::string_view::npos ? '\0' : bytes[i];
 }
 
-/// The name of a known format that is not read, or nothing.
-std::string_view unread_format(std::string_view bytes) {
-    if (starts_with(bytes, "\xFF\xFE") || starts_with(bytes, "\xFE\xFF")) return "UTF-16 text";
-    if (starts_with(bytes, "OFF") || starts_with(bytes, "COFF")) return "OFF";
-    if (starts_with(bytes, "PK\x03\x04")) return "ZIP";
-    if (starts_with(bytes, "\x1F\x8B")) return "gzip";
-    if (starts_with(bytes, "ISO-10303-21")) return "STEP";
-    if (starts_with(bytes, "3D Geometry File Format")) return "Rhino 3DM";
-    return {};
-}
-
 }  // namespace
 
 RawMesh load_model(std::string_view bytes, const LoadLimits& limits) {
@@ -39,13 +29,8 @@ RawMesh load_model(std::string_view bytes, const LoadLimits& limits) {
         mesh.repeats_at_seams = true;
         return mesh;
     };
-    if (bytes.empty()) throw Error(ErrorCode::unreadable_model, "the model is empty (0 bytes)");
+    check_first_bytes(bytes);
     if (starts_with(bytes, "glTF")) return with_seams(read_glb(bytes, limits));
-    if (const auto format = unread_format(bytes); !format.empty()) {
-        throw Error(ErrorCode::unsupported_model,
-                    "the model is " + std::string(format) +
-                        ", which this version does not read; send OBJ, STL, PLY, glTF or GLB");
-    }
     const std::string_view text = without_byte_order_mark(bytes);
     if (first_visible(text) == '{') return with_seams(read_gltf(text, limits));
     if (starts_with(text, "ply\n") || starts_with(text, "ply\r"))

@@ -20,6 +20,7 @@ constexpr std::size_t longest_key = 255;
 Submission checked(Submission submission, const api::FlattenRequest& request) {
     if (submission.model.empty() && submission.asset.empty())
         api::refuse("model_missing", "the model is empty (0 bytes)");
+    if (submission.asset.empty()) api::check_model_bytes(submission.model);
     submission.tag = request.tag;
     return submission;
 }

@@ -110,11 +110,14 @@ def walk_submissions(walk, example):
                ("too_many_parts", 400, form(*[(b"model", b"")] * 17)),
                ("bad_multipart", 400, {"headers": ["Content-Type: multipart/form-data"], "body": b"x"}),
                ("header_invalid", 400, {"headers": ["X-Flatten-Constraints: {}"], "body": model}),
+               ("unsupported_model", 415, {"body": b"\x89PNG\r\n\x1a\n"}), ("unsupported_model", 415, form((b"model", b"PK\x03\x04"))),
+               ("unreadable_model", 422, {"body": b"<!DOCTYPE html><html>"}), ("unreadable_model", 422, {"body": b"glTF\x02\0\0\0"}),
                ("content_encoding_not_supported", 415, {"headers": ["Content-Encoding: gzip"], "body": model}),
                ("bad_chunks", 400, {"headers": ["Transfer-Encoding: chunked\r\n\r\nzz\r\n"]})]
     for code, status, what in refused:
         walk.expect(status, code, "POST", "/v1/jobs", **what)
-    for model, request, code in ((b"hello", {}, "unreadable_model"), (b"OFF\n4 4 6\n", {}, "unsupported_model"),
+    unknown_extension = b'{"asset": {"version": "2.0"}, "extensionsRequired": ["X_unknown"], "extensionsUsed": ["X_unknown"]}'
+    for model, request, code in ((b"hello", {}, "unreadable_model"), (unknown_extension, {}, "unsupported_model"),
                                  (model, {"curves": {"far": {"polyline": [[0, 0, 900], [1, 1, 900]]}}}, "curve_invalid"),
                                  (model, {"cuts": ["none"]}, "curve_invalid"), (model, {"surface": {"groups": ["x"]}}, "group_not_found")):
         id = walk.post(model, request)
