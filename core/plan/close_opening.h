@@ -11,7 +11,8 @@ namespace lastflat {
 /// part in the pattern. Any other surface stays as it is; one with two openings is an upper.
 ///
 /// Out:    the repair `opening_closed` says what the rim was taken for.
-/// Throws: Error{region_invalid} for a last with a hole elsewhere, far too small to be the border of
+/// Throws: Error{region_invalid} for a last with a hole elsewhere, far too small to be the border
+/// of
 ///         a piece, unless the request keeps holes.
 void close_opening(SurfaceMesh& surface, const Request& request);
 
