@@ -72,14 +72,16 @@ std::optional<Filling> filling_of(const SurfaceMesh& surface, const Feature& fea
         Vec3 middle = Vec3::Zero();
         for (const Vec3& p : corners) middle += p / static_cast<double>(corners.size());
         filling.places.push_back({middle, width, 0, static_cast<Index>(triangles.size())});
+        double area = 0.0;
         for (const Triangle& t : triangles) {
             filling.triangles.push_back({rim[at(t[0])], rim[at(t[1])], rim[at(t[2])]});
             const Triangle& made = filling.triangles.back();
             if (!(height_share(surface, made) > tolerance::filling_height)) return std::nullopt;
-            filling.area += 0.5 * doubled_area_vector(surface, made).norm();
+            area += 0.5 * doubled_area_vector(surface, made).norm();
         }
+        if (area > largest_mm2) return std::nullopt;
+        filling.area += area;
     }
-    if (filling.area > largest_mm2) return std::nullopt;
     double before = 0.0;
     for (const Index f : feature.faces)
         before += 0.5 * doubled_area_vector(surface, corners_of(surface, f)).norm();

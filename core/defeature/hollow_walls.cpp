@@ -1,5 +1,6 @@
 #include "core/defeature/hollow_walls.h"
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -31,8 +32,12 @@ std::vector<bool> hollow_faces(const SurfaceMesh& surface, const std::vector<Bar
         const BareFace &a = faces[left], &b = faces[right];
         const Vec3 way = b.centre - a.centre;
         if (a.normal.dot(way) <= 0.0) continue;
+        const Vec3 along = (surface.position(surface.mesh.to_vertex_handle(h).idx()) -
+                            surface.position(surface.mesh.from_vertex_handle(h).idx()))
+                               .normalized();
+        const double across = (way - way.dot(along) * along).norm();  // a wall's faces may be long
         const double bend = angle_between(a.normal, b.normal);
-        if (bend < creased && (bend < least_bend || bend * widest_hollow_mm < way.norm())) continue;
+        if (bend < creased && (bend < least_bend || bend * widest_hollow_mm < across)) continue;
         hollow[left] = hollow[right] = true;
     }
     return hollow;
@@ -60,10 +65,10 @@ public:
             Lump& lump = lumps_[at(found->second)];
             lump.sum += face.area * face.normal;
             lump.area += face.area;
-            lump.centre += face.area * face.centre;
+            for (const Index v : corners_of(surface, static_cast<Index>(lump_of_.size())))
+                lump.box.extend(surface.position(v));
             lump_of_.push_back(found->second);
         }
-        for (Lump& lump : lumps_) lump.centre /= lump.area;
         for (const auto edge : surface.mesh.edges()) {
             const auto h = surface.mesh.halfedge_handle(edge, 0);
             const Index a = lump_of_[at(surface.mesh.face_handle(h).idx())];
@@ -88,7 +93,8 @@ public:
             for (const Index next : lump.beside) {
                 if (lumps_[at(next)].seen_by == face) continue;
                 lumps_[at(next)].seen_by = face;
-                if ((lumps_[at(next)].centre - own.centre).norm() < around_mm)
+                // By its extent: the walls of a hole may be as long as it is deep.
+                if (lumps_[at(next)].box.exteriorDistance(own.centre) < around_mm)
                     stack_.push_back(next);
             }
         }
@@ -98,7 +104,8 @@ public:
 private:
     static constexpr double lump_mm = 2.0;
     struct Lump {
-        Vec3 sum = Vec3::Zero(), centre = Vec3::Zero();  ///< of the normals by area; of the faces
+        Vec3 sum = Vec3::Zero();    ///< of the normals, by area
+        Eigen::AlignedBox3d box{};  ///< of the faces
         double area = 0.0;
         std::vector<Index> beside{};
         Index seen_by = -1;  ///< a face

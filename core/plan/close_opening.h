@@ -12,8 +12,7 @@ namespace lastflat {
 ///
 /// Out:    the repair `opening_closed` says what the rim was taken for.
 /// Throws: Error{region_invalid} for a last with a hole elsewhere, far too small to be the border
-/// of
-///         a piece, unless the request keeps holes.
+///         of a piece, unless the request keeps holes.
 void close_opening(SurfaceMesh& surface, const Request& request);
 
 }  // namespace lastflat

@@ -17,7 +17,7 @@ namespace lastflat {
 namespace {
 
 /// What stands out of the last, or goes into it, at a place.
-struct Feature {
+struct Carried {
     std::string what;
     Vec3 place;
     double radius;
@@ -25,7 +25,7 @@ struct Feature {
     const char* bridged;  ///< the curve that runs there; none: ""
 };
 
-const std::vector<Feature> workshop{
+const std::vector<Carried> workshop{
     {"blind jack-pin hole", {60.0, 0.0, 100.0}, 14.0, {0.0, 0.0, -40.0}, ""},
     {"knob on the side", {75.0, -50.0, 55.0}, 12.0, {0.0, -5.0, 0.0}, ""},
     {"knob on the instep", {195.0, 5.0, 40.0}, 9.0, {2.0, 0.0, 6.0}, curve_name::centre_front},
@@ -44,7 +44,7 @@ const SurfaceMesh& plain() {
     return surface;
 }
 
-RawMesh with(const Feature& feature) {
+RawMesh with(const Carried& feature) {
     RawMesh mesh = test::subdivided(test::bare_sample());
     const Vec3 nearest = SurfaceSearch(plain()).nearest(feature.place).position;
     const auto patch = test::patch_at(mesh, nearest, feature.radius / 2.0);
@@ -124,7 +124,7 @@ std::size_t named(const std::vector<Warning>& warnings, const std::string& curve
 TEST_SUITE("core/defeature/defeature") {
     TEST_CASE("what a workshop's last carries is taken off, and moves no curve beside it") {
         const Landmarks expected = find_landmarks(plain());
-        for (const Feature& feature : workshop) {
+        for (const Carried& feature : workshop) {
             CAPTURE(feature.what);
             SurfaceMesh surface = weld(with(feature));
             CHECK(area_of(surface) > area_of(plain()) + 40.0);
@@ -229,7 +229,7 @@ TEST_SUITE("core/defeature/defeature") {
 
     TEST_CASE("a feature that is larger than 15 mm stays") {
         for (const double radius : {6.0, 16.0}) {
-            Feature knob = workshop[1];
+            Carried knob = workshop[1];
             knob.radius = 2.0 * radius;
             SurfaceMesh surface = weld(with(knob));
             defeature(surface, {});
