@@ -13,10 +13,6 @@ namespace {
 
 constexpr std::string_view what_is_read = "send OBJ, STL, PLY, glTF or GLB";
 
-bool starts_with(std::string_view bytes, std::string_view start) {
-    return bytes.substr(0, start.size()) == start;
-}
-
 /// The same whatever the case of letters; `start` is in small ones.
 bool starts_as(std::string_view text, std::string_view start) {
     if (text.size() < start.size()) return false;
@@ -52,7 +48,7 @@ std::string_view unread_format(std::string_view bytes) {
         Magic{"%PDF-", "PDF"},
     };
     for (const Magic& magic : formats) {
-        if (starts_with(bytes, magic.start)) return magic.format;
+        if (bytes.starts_with(magic.start)) return magic.format;
     }
     return {};
 }
@@ -81,10 +77,10 @@ void check_first_bytes(std::string_view bytes) {
         throw Error(ErrorCode::unsupported_model, "the model is " + std::string(format) +
                                                       ", which this version does not read; " +
                                                       std::string(what_is_read));
-    if (starts_with(first, "glTF")) return check_glb_header(bytes);
+    if (first.starts_with("glTF")) return check_glb_header(bytes);
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     std::string_view text = first;
-    if (starts_with(text, byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
     text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
     if (text.empty() && bytes.size() <= looked_at) refuse("the model has nothing but spaces");
     for (const std::string_view page : {"<!doctype", "<html", "<?xml", "<svg"}) {

@@ -9,12 +9,8 @@
 namespace lastflat {
 namespace {
 
-bool starts_with(std::string_view bytes, std::string_view start) {
-    return bytes.substr(0, start.size()) == start;
-}
-
 std::string_view without_byte_order_mark(std::string_view bytes) {
-    return starts_with(bytes, "\xEF\xBB\xBF") ? bytes.substr(3) : bytes;
+    return bytes.starts_with("\xEF\xBB\xBF") ? bytes.substr(3) : bytes;
 }
 
 char first_visible(std::string_view bytes) {
@@ -30,10 +26,10 @@ RawMesh load_model(std::string_view bytes, const LoadLimits& limits) {
         return mesh;
     };
     check_first_bytes(bytes);
-    if (starts_with(bytes, "glTF")) return with_seams(read_glb(bytes, limits));
+    if (bytes.starts_with("glTF")) return with_seams(read_glb(bytes, limits));
     const std::string_view text = without_byte_order_mark(bytes);
     if (first_visible(text) == '{') return with_seams(read_gltf(text, limits));
-    if (starts_with(text, "ply\n") || starts_with(text, "ply\r"))
+    if (text.starts_with("ply\n") || text.starts_with("ply\r"))
         return with_seams(read_ply(text, limits));
     if (is_stl(text)) return read_stl(text, limits);
     return read_obj(text, limits);

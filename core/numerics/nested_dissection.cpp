@@ -84,13 +84,16 @@ private:
 
     using Position = std::vector<Index>::iterator;
 
-    /// Sorts a part into its halves by the vertices' keys and marks them. Returns the length of the
-    /// shorter wall between them.
-    std::ptrdiff_t halve(Position begin, Position middle, Position end) {
+    /// Sorts a part into its halves by the vertices' keys and marks them.
+    void halve(Position begin, Position middle, Position end) {
         std::nth_element(begin, middle, end, [&](Index a, Index b) {
             return std::pair(key_[at(a)], a) < std::pair(key_[at(b)], b);
         });
         for (auto v = begin; v != end; ++v) side_[at(*v)] = v < middle ? 0 : 1;
+    }
+
+    /// Of the shorter wall between the halves.
+    [[nodiscard]] std::ptrdiff_t wall_length(Position begin, Position middle, Position end) const {
         const auto wall = [&](signed char side) {
             return [this, side](Index v) { return faces_across(v, side); };
         };
@@ -131,13 +134,15 @@ private:
         constexpr double long_wall = 2.5;  // in units of the square root of all vertices
         const Vec2 longest = longest_direction({begin, end}), across(-longest.y(), longest.x());
         set_keys(begin, end, longest);
-        std::ptrdiff_t least = halve(begin, middle, end);
+        halve(begin, middle, end);
         if (end - begin < worth_trying) return;
+        std::ptrdiff_t least = wall_length(begin, middle, end);
         Vec2 best = longest;
         for (const double slant : {0.4, -0.4}) {
             const Vec2 direction = longest + slant * across;
             set_keys(begin, end, direction);
-            const std::ptrdiff_t length = halve(begin, middle, end);
+            halve(begin, middle, end);
+            const std::ptrdiff_t length = wall_length(begin, middle, end);
             if (length >= least) continue;
             least = length;
             best = direction;
@@ -145,7 +150,8 @@ private:
         if (static_cast<double>(least) > long_wall * std::sqrt(static_cast<double>(end - begin))) {
             const Index far = number_from(*std::min_element(begin, end), begin, end);
             number_from(far, begin, end);
-            if (halve(begin, middle, end) < least) return;
+            halve(begin, middle, end);
+            if (wall_length(begin, middle, end) < least) return;
         }
         set_keys(begin, end, best);
         halve(begin, middle, end);

@@ -81,13 +81,6 @@ std::optional<std::string> line_at(const Landmarks& found, const Points3& rim) {
     return std::nullopt;
 }
 
-double loop_length(const Points3& points) {
-    double length = 0.0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        length += (points[(i + 1) % points.size()] - points[i]).norm();
-    return length;
-}
-
 /// Whether a flat piece with such a border has not half the surface's area.
 bool is_too_short(const SurfaceMesh& surface, double length) {
     double area = 0.0;
@@ -128,7 +121,7 @@ void close_opening(SurfaceMesh& surface, const Request& request) {
     const double length_mm = (found.toe_point - found.heel_point).norm();
     if (length_mm < shortest_infant_mm || length_mm > longest_last_mm) return;
     const Points3 points = positions_of(surface, rim);
-    const double length = loop_length(points);
+    const double length = length_of(points) + (points.back() - points.front()).norm();
     const auto line = line_at(found, points);
     if (!line) {
         if (request.cut.holes == HoleRule::automatic && is_too_short(surface, length))

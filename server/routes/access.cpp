@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "api/refusal.h"
+#include "server/http/text.h"
 #include "server/routes/own_machine.h"
 #include "server/support/clock.h"
 
@@ -14,12 +15,7 @@ constexpr std::string_view scheme = "bearer ";
 
 /// What follows the scheme, whose case does not matter.
 std::optional<std::string_view> bearer(std::string_view header) {
-    if (header.size() < scheme.size()) return std::nullopt;
-    for (std::size_t i = 0; i < scheme.size(); ++i) {
-        const char c = header[i];
-        if ((c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c) != scheme[i])
-            return std::nullopt;
-    }
+    if (http::lower_case(header.substr(0, scheme.size())) != scheme) return std::nullopt;
     return header.substr(scheme.size());
 }
 

@@ -3,17 +3,10 @@
 #include <algorithm>
 
 #include "api/refusal.h"
+#include "server/http/text.h"
 
 namespace lastflat::server {
 namespace {
-
-bool begins_with(std::string_view text, std::string_view part) {
-    return text.substr(0, part.size()) == part;
-}
-
-bool ends_with(std::string_view text, std::string_view part) {
-    return text.size() >= part.size() && text.substr(text.size() - part.size()) == part;
-}
 
 /// What a proxy says of whom it speaks for.
 bool is_forwarding(std::string_view header) {
@@ -28,18 +21,15 @@ bool is_forwarding(std::string_view header) {
                                        "x-cluster-client-ip",
                                        "x-original-host",
                                        "x-envoy-external-address"};
-    return begins_with(header, "x-forwarded") ||
+    return header.starts_with("x-forwarded") ||
            std::find(std::begin(names), std::end(names), header) != std::end(names);
 }
 
 /// "LocalHost:8080" is "localhost", "[::1]:8080" is "::1".
 std::string name_of(std::string_view host) {
-    std::string name(host.substr(0, host.front() == '[' ? host.find(']') : host.find(':')));
-    if (begins_with(name, "[")) name.erase(0, 1);
-    std::transform(name.begin(), name.end(), name.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    return name;
+    const bool is_ipv6 = host.starts_with('[');
+    const std::string_view name = host.substr(0, host.find(is_ipv6 ? ']' : ':'));
+    return http::lower_case(is_ipv6 ? name.substr(1) : name);
 }
 
 bool is_ipv4(std::string_view name) {
@@ -49,8 +39,9 @@ bool is_ipv4(std::string_view name) {
 }  // namespace
 
 bool is_loopback(const std::string& address) {
-    return (begins_with(address, "127.") && is_ipv4(address)) || address == "::1" ||
-           (begins_with(address, "::ffff:127.") && is_ipv4(address.substr(7)));
+    return (address.starts_with("127.") && is_ipv4(address)) || address == "::1" ||
+           (address.starts_with("::ffff:127.") && is_ipv4(address.substr(7))) ||
+           address == "localhost" || address.ends_with(".localhost");
 }
 
 void check_client(const http::Request& request) {
@@ -69,8 +60,7 @@ void check_page(const http::Request& request, const std::string& listen_host,
     const std::string host(request.header("host"));
     if (!host.empty()) {
         const std::string name = name_of(host);
-        if (name != "localhost" && !ends_with(name, ".localhost") && !is_loopback(name) &&
-            name != listen_host)
+        if (!is_loopback(name) && name != listen_host)
             api::refuse("host_refused",
                         "this service has no API key and is asked as localhost or 127.0.0.1, not "
                         "under another name");

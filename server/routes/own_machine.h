@@ -19,6 +19,7 @@ void check_client(const http::Request& request);
 void check_page(const http::Request& request, const std::string& listen_host,
                 const std::vector<std::string>& allowed_origins);
 
+/// An address of this machine that no other reaches, or a name for it, in small letters.
 [[nodiscard]] bool is_loopback(const std::string& address);
 
 }  // namespace lastflat::server

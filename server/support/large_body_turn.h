@@ -7,8 +7,8 @@
 namespace lastflat::server {
 
 /// Waits for a turn if the body is large, and has it for as long as it lives. Reading JSON keeps a
-/// processor busy, and its values fill memory: whoever sends many at once waits behind himself,
-/// while small bodies and all other requests pass by.
+/// processor busy, and its values fill memory: large bodies wait for each other, whoever sent them,
+/// while small ones and all other requests pass by.
 class LargeBodyTurn {
 public:
     explicit LargeBodyTurn(std::size_t bytes) : is_large_(bytes > large) {

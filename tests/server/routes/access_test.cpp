@@ -6,6 +6,7 @@
 #include "api/timestamp.h"
 #include "core/error.h"
 #include "server/routes/answers.h"
+#include "server/routes/own_machine.h"
 #include "server/storage/sqlite_accounts.h"
 #include "server/support/duration.h"
 #include "server/support/files.h"
@@ -116,6 +117,13 @@ TEST_SUITE("server/routes/access") {
         CHECK(s.status(page) == 200);
         const std::string key = s.keys.add("one");
         CHECK(with("lasts.example", "origin", "https://evil.example", key) == 200);
+    }
+
+    TEST_CASE("this machine goes by its loopback addresses and by names that end in localhost") {
+        for (const char* own : {"127.0.0.1", "127.9.9.9", "::1", "::ffff:127.0.0.1", "localhost"})
+            CHECK(is_loopback(own));
+        for (const char* other : {"", "0.0.0.0", "10.0.0.1", "127.evil.example", "::ffff:10.0.0.1"})
+            CHECK_FALSE(is_loopback(other));
     }
 
     TEST_CASE("a key has its rate, says what is left, and shares it with nobody") {
