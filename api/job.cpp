@@ -20,6 +20,7 @@ Json json_of(const Job& job) {
     if (!job.reason.empty()) json["reason"] = job.reason;
     if (!job.tag.empty()) json["tag"] = job.tag;
     if (!job.batch.empty()) json["batch"] = job.batch;
+    json["priority"] = word_of(job_priorities, job.priority);
     const auto time = [&](const char* name, const std::optional<std::int64_t>& at_ms) {
         if (at_ms) json[name] = rfc3339(*at_ms);
     };

@@ -18,6 +18,11 @@ inline constexpr Word<JobState> job_states[] = {
     {"canceling", JobState::canceling}, {"succeeded", JobState::succeeded},
     {"failed", JobState::failed},       {"canceled", JobState::canceled}};
 
+/// The order of one client's own jobs: those that somebody waits for come first.
+enum class JobPriority { batch, interactive };
+inline constexpr Word<JobPriority> job_priorities[] = {{"interactive", JobPriority::interactive},
+                                                       {"batch", JobPriority::batch}};
+
 [[nodiscard]] constexpr bool is_final(JobState state) {
     return state == JobState::succeeded || state == JobState::failed || state == JobState::canceled;
 }
@@ -27,6 +32,7 @@ struct Job {
     JobState state = JobState::queued;
     std::string reason;  ///< why it was canceled: client, deadline
     std::string tag, batch;
+    JobPriority priority = JobPriority::interactive;
     std::int64_t created_ms = 0;  ///< since 1970
     std::optional<std::int64_t> started_ms, finished_ms, cancel_at_ms;
     std::optional<std::int64_t> result_expires_ms, expires_ms;

@@ -88,7 +88,7 @@ private:
         if ((job.state == JobState::failed) != job.error.has_value())
             complain("job " + job.id + ": its state and its error contradict each other");
         if (job.attempt > most_attempts) complain("job " + job.id + ": too many attempts");
-        const auto changes = store_.history(job.id, 0);
+        const auto changes = store_.history(job.number, 0);
         if (changes.empty() || changes.back().state != job.state)
             complain("job " + job.id + ": its history does not lead to its state");
     }

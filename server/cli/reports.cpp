@@ -34,7 +34,7 @@ RunLog run_log(Metrics& metrics, Estimate& estimate) {
         for (const auto& [stage, seconds] : run.stage_seconds)
             metrics.observe("lastflat_job_stage_seconds", seconds, {{"stage", stage}});
         if (run.outcome == "succeeded") estimate.note(run.claim.model_bytes, run.seconds);
-        log_event("job_run", {{"job", run.claim.lease.id},
+        log_event("job_run", {{"job", run.claim.id},
                               {"key", run.claim.owner},
                               {"attempt", run.claim.attempt},
                               {"outcome", run.outcome},

@@ -18,6 +18,7 @@ struct NewJob {
     std::string owner;  ///< id of the API key; empty: the service is open
     std::string tag;
     std::string batch;  ///< id of the batch it came in; empty: alone
+    api::JobPriority priority = api::JobPriority::interactive;
     std::string model, request;
     std::uint64_t model_bytes = 0;
     std::string fingerprint;                   ///< of everything asked: the same means a repetition
@@ -34,8 +35,13 @@ struct ResultPart {
     std::string digest;  ///< SHA-256 of the part
 };
 
+/// What the server knows a job by. An id is unique among the jobs of its owner alone.
+using JobNumber = std::int64_t;
+
 struct JobRecord {
+    JobNumber number = 0;
     std::string id, owner, tag, batch;
+    api::JobPriority priority = api::JobPriority::interactive;
     JobState state = JobState::queued;
     std::string reason;  ///< why it was canceled: "client", "deadline"
     std::string fingerprint, model;

@@ -24,9 +24,9 @@ api::Problem worker_lost_problem() {
             "send a coarser model"};
 }
 
-void JobControl::has_ended(const std::string& id) {
-    executor_.cancel(id);
-    watch_.changed(id);
+void JobControl::has_ended(JobNumber job) {
+    executor_.cancel(job);
+    watch_.changed(job);
 }
 
 JobRecord JobControl::cancel(const std::string& owner, const std::string& id) {
@@ -34,22 +34,22 @@ JobRecord JobControl::cancel(const std::string& owner, const std::string& id) {
     if (!state) (void)found_job(jobs_, owner, id);
     if (state == JobState::succeeded || state == JobState::failed)
         api::refuse("already_finished", "the job has already " + std::string(name(*state)));
-    has_ended(id);
     JobRecord job = found_job(jobs_, owner, id);
+    has_ended(job.number);
     drop_unneeded(blobs_, jobs_, {job.model});
     return job;
 }
 
 void JobControl::remove(const std::string& owner, const std::string& id) {
+    const JobNumber job = found_job(jobs_, owner, id).number;
     const auto blobs = jobs_.remove(owner, id);
-    if (!blobs) (void)found_job(jobs_, owner, id);
-    has_ended(id);
-    drop_unneeded(blobs_, jobs_, *blobs);
+    has_ended(job);
+    if (blobs) drop_unneeded(blobs_, jobs_, *blobs);
 }
 
 void JobControl::sweep() {
     const Swept swept = jobs_.sweep(false, worker_lost_problem());
-    for (const std::string& id : swept.changed) has_ended(id);
+    for (const JobNumber job : swept.changed) has_ended(job);
     drop_unneeded(blobs_, jobs_, swept.blobs);
     if (!swept.changed.empty()) executor_.wake();
 }

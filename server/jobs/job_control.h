@@ -34,7 +34,7 @@ public:
 
 private:
     /// The store has ended it.
-    void has_ended(const std::string& id);
+    void has_ended(JobNumber job);
 
     JobStore& jobs_;
     const BlobStore& blobs_;

@@ -1,7 +1,7 @@
 // Who runs jobs, as those see it who add and end them.
 #pragma once
 
-#include <string>
+#include "server/jobs/job.h"
 
 namespace lastflat::server {
 
@@ -12,7 +12,7 @@ public:
     /// Says that a job was queued.
     virtual void wake() = 0;
     /// Ends a run at once; the store must already say that the job is canceling or gone.
-    virtual void cancel(const std::string& id) = 0;
+    virtual void cancel(JobNumber job) = 0;
 };
 
 }  // namespace lastflat::server

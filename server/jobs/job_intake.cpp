@@ -23,6 +23,7 @@ NewJob new_job(const Submission& submission) {
     job.owner = submission.owner;
     job.tag = submission.tag;
     job.batch = submission.batch;
+    job.priority = submission.priority;
     job.request = submission.request;
     job.idempotency_key = submission.idempotency_key;
     if (const auto after = duration_ms(submission.cancel_after))

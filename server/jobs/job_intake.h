@@ -30,6 +30,7 @@ struct Submission {
     std::string batch;            ///< id of the batch it came in; empty: alone
     std::string idempotency_key;  ///< empty: none
     std::string cancel_after;     ///< a duration as it was written; empty: never
+    api::JobPriority priority = api::JobPriority::interactive;
 
     void make_model(std::string bytes) {
         made = std::make_shared<const std::string>(std::move(bytes));

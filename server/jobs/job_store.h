@@ -13,13 +13,13 @@ namespace lastflat::server {
 /// A runner's hold on a running job. It is good until the lease ends or somebody else has taken the
 /// job; the token tells which.
 struct Lease {
-    std::string id;
+    JobNumber job = 0;
     std::int64_t token = 0;
 };
 
 struct Claim {
     Lease lease;
-    std::string owner, tag, model, request;
+    std::string id, owner, tag, model, request;
     std::uint64_t model_bytes = 0;
     std::int64_t created_ms = 0;
     int attempt = 0;
@@ -78,7 +78,8 @@ struct Retention {
 
 /// What housekeeping did: jobs that changed, blobs that may be needed by nobody now.
 struct Swept {
-    std::vector<std::string> changed, blobs;
+    std::vector<JobNumber> changed;
+    std::vector<std::string> blobs;
 };
 
 constexpr int most_attempts = 3;
@@ -92,18 +93,19 @@ public:
     /// Keeps a new job as queued, or says why not. The same id or idempotency key with the same
     /// fingerprint is a repetition and changes nothing.
     [[nodiscard]] virtual Admitted add(const NewJob& job, const QueueLimits& limits) = 0;
-    /// Of any owner if `owner` is empty.
     [[nodiscard]] virtual std::optional<JobRecord> find(const std::string& owner,
                                                         const std::string& id) = 0;
     /// Whether the job was there and its time is over.
     [[nodiscard]] virtual bool is_expired(const std::string& owner, const std::string& id) = 0;
+    /// Of every owner if `owner` is empty: a service without keys has one owner alone.
     [[nodiscard]] virtual JobList list(const std::string& owner, const JobFilter& filter) = 0;
     /// The states a job went through, after the given revision.
-    [[nodiscard]] virtual std::vector<StateChange> history(const std::string& id,
-                                                           std::int64_t after) = 0;
+    [[nodiscard]] virtual std::vector<StateChange> history(JobNumber job, std::int64_t after) = 0;
     [[nodiscard]] virtual JobCounts counts() = 0;
 
-    /// The oldest queued job becomes running and is the caller's until the lease ends.
+    /// The next queued job becomes running and is the caller's until the lease ends. Owners take
+    /// turns: who has the fewest running is next, and among those who has waited longest for a
+    /// turn. Among the jobs of one owner the priority decides, then the age.
     [[nodiscard]] virtual std::optional<Claim> claim(std::int64_t lease_ms) = 0;
     /// Extends a lease. `canceling`: held, but to be given up.
     [[nodiscard]] virtual Hold renew(const Lease& lease, std::int64_t lease_ms) = 0;

@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "server/jobs/job.h"
+
 namespace lastflat::server {
 
 struct LiveProgress {
@@ -22,12 +24,12 @@ public:
     using Clock = std::chrono::steady_clock;
 
     /// Says that a job's row has changed. Any thread, after the change.
-    void changed(const std::string& id);
+    void changed(JobNumber job);
     /// Says how far a running job is.
-    void reach(const std::string& id, const std::string& stage, double fraction);
+    void reach(JobNumber job, const std::string& stage, double fraction);
     /// The job does not run any more.
-    void ended(const std::string& id);
-    [[nodiscard]] std::optional<LiveProgress> progress(const std::string& id) const;
+    void ended(JobNumber job);
+    [[nodiscard]] std::optional<LiveProgress> progress(JobNumber job) const;
 
     /// Nobody waits any longer from now on: the service ends. Gives those who did `grace` to say so
     /// to their clients.
@@ -37,7 +39,7 @@ public:
     /// Notices every change from its construction on.
     class Subscription {
     public:
-        Subscription(JobWatch& watch, std::string id);
+        Subscription(JobWatch& watch, JobNumber job);
         ~Subscription();
         Subscription(const Subscription&) = delete;
         Subscription& operator=(const Subscription&) = delete;
@@ -47,7 +49,7 @@ public:
 
     private:
         JobWatch& watch_;
-        const std::string id_;
+        const JobNumber job_;
         std::uint64_t seen_ = 0;
     };
 
@@ -58,11 +60,11 @@ private:
         std::optional<LiveProgress> progress;
     };
     void touch(Entry& entry);
-    void drop_if_idle(std::map<std::string, Entry>::iterator entry);
+    void drop_if_idle(std::map<JobNumber, Entry>::iterator entry);
 
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::map<std::string, Entry> entries_;
+    std::map<JobNumber, Entry> entries_;
     std::size_t subscriptions_ = 0;
     bool closed_ = false;
 };

@@ -17,7 +17,7 @@ struct Webhook : api::Webhook {
 
 struct Delivery : api::Delivery {
     std::int64_t seq = 0;  ///< in the order of their making
-    std::string webhook;
+    std::string owner, webhook;
 };
 
 /// A message and where it goes.
@@ -38,12 +38,17 @@ public:
     /// Forgets its messages too.
     [[nodiscard]] virtual bool remove(const std::string& owner, const std::string& id) = 0;
     /// The newest messages.
-    [[nodiscard]] virtual std::vector<Delivery> deliveries(const std::string& id) = 0;
+    [[nodiscard]] virtual std::vector<Delivery> deliveries(const std::string& owner,
+                                                           const std::string& id) = 0;
     /// Puts a message of the kind "test" into the queue. False: too many wait, or it is gone.
-    [[nodiscard]] virtual bool add_test(const std::string& id) = 0;
-    /// The oldest message that is due; it is due again after `lease_ms` unless it is settled.
-    [[nodiscard]] virtual std::optional<DueDelivery> claim(std::int64_t lease_ms) = 0;
-    /// What became of an attempt. `next_ms`: when to try again.
+    [[nodiscard]] virtual bool add_test(const std::string& owner, const std::string& id) = 0;
+    /// The next message that is due; it is due again after `lease_ms` unless it is settled. Owners
+    /// take turns, and none has more than `most_of_owner` messages on the way. A receiver that did
+    /// not answer gets one message at a time, until it answers.
+    [[nodiscard]] virtual std::optional<DueDelivery> claim(std::int64_t lease_ms,
+                                                           int most_of_owner) = 0;
+    /// What became of an attempt. `next_ms`: when to try again. Without an answer, all messages to
+    /// that receiver wait: 5 s, doubling with every attempt, up to 10 min. An answer ends that.
     virtual void settle(const Delivery& delivery) = 0;
 };
 

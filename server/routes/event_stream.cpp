@@ -24,12 +24,14 @@ std::string event(std::string_view name, const std::string& id, const std::strin
 /// One client's view of one job. Lives on its connection's thread.
 class EventStream {
 public:
-    EventStream(const EventServices& service, const http::Request& request, std::int64_t seen)
+    EventStream(const EventServices& service, const http::Request& request, const JobRecord& job,
+                std::int64_t seen)
         : service_(service),
           owner_(request.principal),
-          id_(request.captures.at(0)),
+          id_(job.id),
+          number_(job.number),
           seat_(service.seats, request),
-          subscription_(service.watch, id_),
+          subscription_(service.watch, number_),
           seen_(seen) {}
 
     [[nodiscard]] bool has_seat() const { return seat_.is_taken(); }
@@ -69,12 +71,12 @@ private:
 
     bool send_news(const http::Write& write) {
         const auto job = service_.jobs.find(owner_, id_);
-        if (!job) {
+        if (!job || job->number != number_) {
             write("event: deleted\ndata: {}\n\n");
             return false;
         }
         std::string news;
-        for (const StateChange& change : service_.jobs.history(id_, seen_)) {
+        for (const StateChange& change : service_.jobs.history(number_, seen_)) {
             if (change.revision > job->revision) break;
             seen_ = change.revision;
             progress_seen_ = 0;
@@ -87,7 +89,7 @@ private:
             write(news);
             return false;
         }
-        if (const auto progress = service_.watch.progress(id_);
+        if (const auto progress = service_.watch.progress(number_);
             progress && job->state == JobState::running && progress->number != progress_seen_) {
             progress_seen_ = progress->number;
             const api::ProgressEvent reached{progress->stage,
@@ -101,6 +103,7 @@ private:
 
     const EventServices service_;
     const std::string owner_, id_;
+    const JobNumber number_;
     const WaitingSeat seat_;
     JobWatch::Subscription subscription_;
     std::int64_t seen_;  ///< the last revision that the client has
@@ -127,7 +130,7 @@ http::Response events(const EventServices& service, const http::Request& request
     const std::int64_t seen = last_event(request);
     // What an EventSource asks after the end; this answer keeps it from asking again and again.
     if (is_final(job.state) && seen >= job.revision) return empty_response(204);
-    const auto stream = std::make_shared<EventStream>(service, request, seen);
+    const auto stream = std::make_shared<EventStream>(service, request, job, seen);
     if (!stream->has_seat())
         api::refuse(
             "streams_full",

@@ -14,6 +14,7 @@ api::Job JobView::of(const JobRecord& record) const {
         job.reason = record.reason;
     job.tag = record.tag;
     job.batch = record.batch;
+    job.priority = record.priority;
     job.created_ms = record.created_ms;
     job.started_ms = record.started_ms;
     job.finished_ms = record.finished_ms;
@@ -25,7 +26,7 @@ api::Job JobView::of(const JobRecord& record) const {
     job.error = record.error;
     if (record.state == JobState::succeeded) job.percent = 100;
     if (record.state == JobState::running) {
-        if (const auto progress = watch_.progress(record.id)) {
+        if (const auto progress = watch_.progress(record.number)) {
             job.stage = progress->stage;
             job.percent = static_cast<int>(100.0 * progress->fraction);
         }
@@ -45,7 +46,7 @@ api::Job JobView::of(const JobRecord& record) const {
 
 std::string JobView::etag(const JobRecord& job) const {
     std::string tag = "W/\"" + std::to_string(job.revision);
-    const auto progress = watch_.progress(job.id);
+    const auto progress = watch_.progress(job.number);
     if (progress && job.state == JobState::running) tag += "." + std::to_string(progress->number);
     return tag + "\"";
 }

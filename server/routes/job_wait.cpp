@@ -9,7 +9,7 @@ JobRecord JobWait::wait(const http::Request& request, JobRecord job, int seconds
     const WaitingSeat seat(seats_, request);
     if (!seat.is_taken()) return job;
     const auto deadline = JobWatch::Clock::now() + std::chrono::seconds(seconds);
-    JobWatch::Subscription subscription(watch_, job.id);
+    JobWatch::Subscription subscription(watch_, job.number);
     const bool until_change = request.headers.contains("if-none-match");
     for (;;) {
         job = found_job(jobs_, request.principal, job.id);

@@ -131,6 +131,11 @@ void read_terms(const http::Request& request, Submission& submission) {
     submission.cancel_after = request.header("cancel-after");
     if (!submission.cancel_after.empty() && !duration_ms(submission.cancel_after))
         api::refuse("header_invalid", "Cancel-After is not a duration such as 90s, 2m or 1h");
+    if (!request.headers.contains("job-priority")) return;
+    const auto priority = api::value_of(api::job_priorities, request.header("job-priority"));
+    if (!priority)
+        api::refuse("header_invalid", "Job-Priority is one of " + api::listed(api::job_priorities));
+    submission.priority = *priority;
 }
 
 }  // namespace lastflat::server

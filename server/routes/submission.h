@@ -20,7 +20,7 @@ namespace lastflat::server {
 /// Throws as above.
 [[nodiscard]] Submission submission_of(api::JsonSubmission json);
 
-/// Who sends it, and what the headers Idempotency-Key and Cancel-After say of it.
+/// Who sends it, and what the headers Idempotency-Key, Cancel-After and Job-Priority say of it.
 /// Throws: api::Refusal (400).
 void read_terms(const http::Request& request, Submission& submission);
 

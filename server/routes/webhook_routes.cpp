@@ -57,14 +57,14 @@ Response list_webhooks(WebhookStore& webhooks, const Request& request) {
 }
 
 Response deliveries(WebhookStore& webhooks, const Request& request) {
-    const auto sent = webhooks.deliveries(found(webhooks, request).id);
+    const auto sent = webhooks.deliveries(request.principal, found(webhooks, request).id);
     return json_response(200, api::to_json(std::vector<api::Delivery>(sent.begin(), sent.end())));
 }
 
 Response test_webhook(WebhookStore& webhooks, bool sends, const Request& request) {
     require_webhooks(sends);
     const Webhook webhook = found(webhooks, request);
-    if (!webhooks.add_test(webhook.id))
+    if (!webhooks.add_test(request.principal, webhook.id))
         api::refuse("too_many_messages", "messages to this webhook are waiting already; see them");
     return json_response(202, to_json(webhook, false));
 }

@@ -9,11 +9,12 @@ namespace lastflat::server {
 [[nodiscard]] RunJob run_jobs_in_workers(const ProcessLimits& limits, const BlobStore& blobs);
 
 /// A short task in a worker of its own: an inspection, or a mapping.
-using RunTask =
-    std::function<ProcessEnd(Task task, std::string_view model, std::string_view request)>;
+/// `owner`: who asks for it.
+using RunTask = std::function<ProcessEnd(const std::string& owner, Task task,
+                                         std::string_view model, std::string_view request)>;
 
-/// Few at once, others wait: each may use as much as a job. `work`: a folder for the models.
-/// Once `ends` says so they end at once, as stopped.
+/// Few at once, others wait, and owners take turns: each may use as much as a job. `work`: a folder
+/// for the models. Once `ends` says so they end at once, as stopped.
 [[nodiscard]] RunTask run_tasks_in_workers(const ProcessLimits& limits,
                                            const std::filesystem::path& work,
                                            std::function<bool()> ends);

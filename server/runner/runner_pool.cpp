@@ -75,10 +75,10 @@ void RunnerPool::wake() {
     changed_.notify_all();
 }
 
-void RunnerPool::cancel(const std::string& id) {
+void RunnerPool::cancel(JobNumber job) {
     const std::scoped_lock lock(mutex_);
     for (auto& [token, run] : running_) {
-        if (run.id == id) run.canceled = true;
+        if (run.job == job) run.canceled = true;
     }
 }
 
@@ -117,9 +117,9 @@ void RunnerPool::work() {
             changed_.wait_for(lock, look_again, [&] { return draining_ || wakes_ != seen; });
             continue;
         }
-        running_.emplace(claim->lease.token, Run{claim->lease.id});
+        running_.emplace(claim->lease.token, Run{claim->lease.job});
         lock.unlock();
-        watch_.changed(claim->lease.id);
+        watch_.changed(claim->lease.job);
         try {
             run(*claim);
         } catch (const std::exception& error) {
@@ -170,11 +170,11 @@ void RunnerPool::run(const Claim& claim) {
                                          std::chrono::duration<double>(now - stage_begun).count();
                                      stage = next;
                                      stage_begun = now;
-                                     watch_.reach(claim.lease.id, next, fraction);
+                                     watch_.reach(claim.lease.job, next, fraction);
                                  },
                                  [&] { return must_stop(claim, renewed_ms); }};
     const std::filesystem::path file =
-        options_.work / (claim.lease.id + "." + std::to_string(claim.attempt));
+        options_.work / (std::to_string(claim.lease.job) + "." + std::to_string(claim.attempt));
     ProcessEnd end;
     try {
         end = run_job_(claim, file, control);
@@ -187,8 +187,8 @@ void RunnerPool::run(const Claim& claim) {
     std::error_code gone;
     std::filesystem::remove(file, gone);
     report.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
-    watch_.ended(claim.lease.id);
-    watch_.changed(claim.lease.id);
+    watch_.ended(claim.lease.job);
+    watch_.changed(claim.lease.job);
     log_(report);
 }
 

@@ -44,7 +44,7 @@ public:
     ~RunnerPool() override;
 
     void wake() override;
-    void cancel(const std::string& id) override;
+    void cancel(JobNumber job) override;
     [[nodiscard]] std::size_t busy() const;
 
     /// Takes no more jobs.
@@ -55,7 +55,7 @@ public:
 
 private:
     struct Run {
-        std::string id;
+        JobNumber job = 0;
         bool canceled = false;
     };
     void work();

@@ -3,12 +3,13 @@
 
 #include "server/storage/sqlite_rows.h"
 #include "server/storage/sqlite_store.h"
+#include "server/storage/sqlite_turns.h"
 
 namespace lastflat::server {
 namespace {
 
 const std::string select_record = "SELECT " + std::string(record_columns) + " FROM jobs ";
-const std::string select_one = select_record + "WHERE id = ?1 AND (owner = ?2 OR ?2 = '')";
+const std::string select_one = select_record + "WHERE owner = ?1 AND id = ?2";
 /// Only the conditions that are asked for: an index serves what the statement says, not what it
 /// might have said.
 std::string select_list(const std::string& owner, const JobFilter& filter) {
@@ -22,30 +23,23 @@ std::string select_list(const std::string& owner, const JobFilter& filter) {
     return sql + " ORDER BY seq DESC LIMIT ?7";
 }
 
-std::size_t queue_position_of(SqliteConnection& connection, std::int64_t seq) {
-    Query query(
-        connection.prepared("SELECT count(*) FROM jobs WHERE state = 'queued' AND seq <= ?"));
-    return query.bind(seq).next() ? static_cast<std::size_t>(query.number(0)) : 0;
-}
-
 }  // namespace
 
 std::optional<JobRecord> SqliteStore::find(const std::string& owner, const std::string& id) {
     return database_.read([&](SqliteConnection& connection) -> std::optional<JobRecord> {
         Query query(connection.prepared(select_one));
-        if (!query.bind(id, owner).next()) return std::nullopt;
+        if (!query.bind(owner, id).next()) return std::nullopt;
         JobRecord job = record_of(query, retention_);
         if (job.state == JobState::queued)
-            job.queue_position = queue_position_of(connection, query.number(0));
+            job.queue_position = queue_position_of(connection, job.number);
         return job;
     });
 }
 
 bool SqliteStore::is_expired(const std::string& owner, const std::string& id) {
     return database_.read([&](SqliteConnection& connection) {
-        Query query(
-            connection.prepared("SELECT 1 FROM expired WHERE id = ?1 AND (owner = ?2 OR ?2 = '')"));
-        return query.bind(id, owner).next();
+        Query query(connection.prepared("SELECT 1 FROM expired WHERE owner = ? AND id = ?"));
+        return query.bind(owner, id).next();
     });
 }
 
@@ -72,12 +66,12 @@ JobList SqliteStore::list(const std::string& owner, const JobFilter& filter) {
     });
 }
 
-std::vector<StateChange> SqliteStore::history(const std::string& id, std::int64_t after) {
+std::vector<StateChange> SqliteStore::history(JobNumber job, std::int64_t after) {
     return database_.read([&](SqliteConnection& connection) {
         Query query(connection.prepared(
-            "SELECT c.revision, c.at_ms, c.state, c.attempt FROM changes c JOIN jobs j "
-            "ON j.seq = c.seq WHERE j.id = ? AND c.revision > ? ORDER BY c.revision"));
-        query.bind(id, after);
+            "SELECT revision, at_ms, state, attempt FROM changes WHERE seq = ? AND revision > ? "
+            "ORDER BY revision"));
+        query.bind(job, after);
         std::vector<StateChange> changes;
         while (query.next()) {
             changes.push_back({query.number(0), query.number(1), state_of(query.text(2)),

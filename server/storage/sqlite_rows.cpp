@@ -7,14 +7,15 @@ namespace lastflat::server {
 namespace {
 
 JobRow row_of(const Query& query) {
-    return {query.number(0),
-            query.number(1),
-            state_of(query.text(2)),
-            static_cast<int>(query.number(3)),
-            query.text(4),
-            query.text(5),
-            query.text(6)};
+    return {query.number(0),         query.number(1),
+            state_of(query.text(2)), static_cast<int>(query.number(3)),
+            query.text(4),           query.text(5),
+            query.text(6),           query.text(7)};
 }
+
+/// The columns of `row_of`.
+const std::string select_row =
+    "SELECT seq, revision, state, attempt, id, owner, model, result FROM jobs ";
 
 }  // namespace
 
@@ -26,6 +27,7 @@ JobState state_of(const std::string& word) {
 
 JobRecord record_of(const Query& query, const Retention& retention) {
     JobRecord job;
+    job.number = query.number(0);
     job.id = query.text(1);
     job.owner = query.text(2);
     job.tag = query.text(3);
@@ -44,6 +46,7 @@ JobRecord record_of(const Query& query, const Retention& retention) {
         job.error = api::problem_from_json(error);
     job.result = query.text(16);
     job.model = query.text(18);
+    job.priority = static_cast<api::JobPriority>(query.number(19));
     job.parts = result_parts_of(query.text(17));
     if (job.finished_ms) {
         job.expires_ms = *job.finished_ms + retention.job_ms;
@@ -55,29 +58,34 @@ JobRecord record_of(const Query& query, const Retention& retention) {
 
 std::optional<JobRow> find_row(SqliteConnection& connection, const std::string& owner,
                                const std::string& id) {
-    Query query(
-        connection.prepared("SELECT seq, revision, state, attempt, id, model, result FROM jobs "
-                            "WHERE id = ?1 AND (owner = ?2 OR ?2 = '')"));
-    if (!query.bind(id, owner).next()) return std::nullopt;
+    Query query(connection.prepared(select_row + "WHERE owner = ? AND id = ?"));
+    if (!query.bind(owner, id).next()) return std::nullopt;
+    return row_of(query);
+}
+
+JobRow row_of(SqliteConnection& connection, JobNumber job) {
+    Query query(connection.prepared(select_row + "WHERE seq = ?"));
+    if (!query.bind(job).next()) throw StoreError("the job " + std::to_string(job) + " is gone");
     return row_of(query);
 }
 
 std::optional<JobRow> leased_row(SqliteConnection& connection, const Lease& lease) {
     Query query(connection.prepared(
-        "SELECT seq, revision, state, attempt, id, model, result FROM jobs WHERE id = ? "
-        "AND lease_token = ? AND state IN ('running', 'canceling')"));
-    if (!query.bind(lease.id, lease.token).next()) return std::nullopt;
+        select_row + "WHERE seq = ? AND lease_token = ? AND state IN ('running', 'canceling')"));
+    if (!query.bind(lease.job, lease.token).next()) return std::nullopt;
     return row_of(query);
 }
 
-bool add_delivery(SqliteConnection& connection, const std::string& webhook,
-                  const api::WebhookMessage& message, int most_pending) {
+bool add_delivery(SqliteConnection& connection, const std::string& owner,
+                  const std::string& webhook, const api::WebhookMessage& message,
+                  int most_pending) {
     return Query(connection.prepared(
-                     "INSERT INTO deliveries (id, webhook, event, payload, created_ms, next_ms) "
-                     "SELECT ?1, ?2, ?3, ?4, ?5, ?5 FROM webhooks WHERE id = ?2 AND "
-                     "(SELECT count(*) FROM deliveries WHERE webhook = ?2 AND "
-                     "next_ms IS NOT NULL) < ?6"))
-               .bind("msg_" + new_job_id(), webhook, type_of(message), to_json(message),
+                     "INSERT INTO deliveries (id, owner, webhook, receiver, event, payload, "
+                     "created_ms, next_ms) SELECT ?1, owner, id, receiver, ?4, ?5, ?6, ?6 "
+                     "FROM webhooks WHERE owner = ?2 AND id = ?3 AND "
+                     "(SELECT count(*) FROM deliveries WHERE owner = ?2 AND webhook = ?3 AND "
+                     "next_ms IS NOT NULL) < ?7"))
+               .bind("msg_" + new_job_id(), owner, webhook, type_of(message), to_json(message),
                      message.at_ms, most_pending)
                .run() > 0;
 }
@@ -91,9 +99,13 @@ void add_webhook(SqliteConnection& connection, const Webhook& webhook, const std
         .run();
 }
 
-void erase_webhook(SqliteConnection& connection, const std::string& id) {
-    Query(connection.prepared("DELETE FROM deliveries WHERE webhook = ?")).bind(id).run();
-    Query(connection.prepared("DELETE FROM webhooks WHERE id = ?")).bind(id).run();
+void erase_webhook(SqliteConnection& connection, const std::string& owner, const std::string& id) {
+    Query(connection.prepared("DELETE FROM deliveries WHERE owner = ? AND webhook = ?"))
+        .bind(owner, id)
+        .run();
+    Query(connection.prepared("DELETE FROM webhooks WHERE owner = ? AND id = ?"))
+        .bind(owner, id)
+        .run();
 }
 
 void note_change(SqliteConnection& connection, const JobRow& row) {
@@ -117,7 +129,7 @@ void tell_webhooks(SqliteConnection& connection, const JobRow& row) {
     }
     const api::WebhookMessage message{now_ms(), api::JobEnded{row.id, row.state, tag}};
     for (const std::string& webhook : webhooks)
-        (void)add_delivery(connection, webhook, message, most_pending_messages);
+        (void)add_delivery(connection, row.owner, webhook, message, most_pending_messages);
 }
 
 void change_state(SqliteConnection& connection, JobRow& row, JobState to,
@@ -145,10 +157,13 @@ void change_state(SqliteConnection& connection, JobRow& row, JobState to,
 
 void erase_row(SqliteConnection& connection, const JobRow& row) {
     Query(connection.prepared("DELETE FROM changes WHERE seq = ?")).bind(row.seq).run();
-    Query(connection.prepared("DELETE FROM idempotency WHERE id = ?")).bind(row.id).run();
+    Query(connection.prepared("DELETE FROM idempotency WHERE owner = ? AND id = ?"))
+        .bind(row.owner, row.id)
+        .run();
     // A client may choose an id that is a webhook's: only the job's own goes with it.
-    Query own(connection.prepared("SELECT 1 FROM webhooks WHERE id = ?1 AND job = ?1"));
-    if (own.bind(row.id).next()) erase_webhook(connection, row.id);
+    Query own(
+        connection.prepared("SELECT 1 FROM webhooks WHERE owner = ?1 AND id = ?2 AND job = ?2"));
+    if (own.bind(row.owner, row.id).next()) erase_webhook(connection, row.owner, row.id);
     Query(connection.prepared("DELETE FROM jobs WHERE seq = ?")).bind(row.seq).run();
 }
 

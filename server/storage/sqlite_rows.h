@@ -12,7 +12,7 @@ struct JobRow {
     std::int64_t seq = 0, revision = 0;
     JobState state = JobState::queued;
     int attempt = 0;
-    std::string id, model, result;
+    std::string id, owner, model, result;
 };
 
 /// Throws: StoreError if it is none.
@@ -21,12 +21,13 @@ struct JobRow {
 /// The columns of `record_of`.
 inline constexpr char record_columns[] =
     "seq, id, owner, tag, batch, state, reason, fingerprint, model_bytes, created_ms, started_ms, "
-    "finished_ms, cancel_at_ms, attempt, revision, error, result, parts, model";
+    "finished_ms, cancel_at_ms, attempt, revision, error, result, parts, model, priority";
 [[nodiscard]] JobRecord record_of(const Query& query, const Retention& retention);
 
-/// Of any owner if `owner` is empty.
 [[nodiscard]] std::optional<JobRow> find_row(SqliteConnection& connection, const std::string& owner,
                                              const std::string& id);
+/// Throws: StoreError if there is no such job.
+[[nodiscard]] JobRow row_of(SqliteConnection& connection, JobNumber job);
 /// The job while the lease is good; nothing once it was lost.
 [[nodiscard]] std::optional<JobRow> leased_row(SqliteConnection& connection, const Lease& lease);
 
@@ -43,13 +44,14 @@ inline constexpr int most_pending_messages = 1000;
 
 /// A message to a webhook, to be sent at once. False: there is no such webhook any more, or too
 /// many of its messages wait.
-[[nodiscard]] bool add_delivery(SqliteConnection& connection, const std::string& webhook,
-                                const api::WebhookMessage& message, int most_pending);
+[[nodiscard]] bool add_delivery(SqliteConnection& connection, const std::string& owner,
+                                const std::string& webhook, const api::WebhookMessage& message,
+                                int most_pending);
 
 /// `job`: the only one that it tells of; empty: every job of its owner.
 void add_webhook(SqliteConnection& connection, const Webhook& webhook, const std::string& job);
 /// Forgets its messages too.
-void erase_webhook(SqliteConnection& connection, const std::string& id);
+void erase_webhook(SqliteConnection& connection, const std::string& owner, const std::string& id);
 
 /// Forgets the job's row and all that hangs on it.
 void erase_row(SqliteConnection& connection, const JobRow& row);

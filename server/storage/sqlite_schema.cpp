@@ -132,23 +132,150 @@ CREATE INDEX deliveries_by_webhook ON deliveries (webhook, seq);
 ALTER TABLE webhooks ADD COLUMN job TEXT NOT NULL DEFAULT '';
 DROP INDEX webhooks_by_owner;
 CREATE INDEX webhooks_by_owner ON webhooks (owner, job);
+)sql",
+                                R"sql(
+-- Ids are unique among their owner's alone: tables whose ids were everybody's are made anew.
+CREATE TABLE jobs_of_owners (
+    seq            INTEGER PRIMARY KEY AUTOINCREMENT,
+    id             TEXT NOT NULL,
+    owner          TEXT NOT NULL,
+    tag            TEXT NOT NULL,
+    batch          TEXT NOT NULL,
+    priority       INTEGER NOT NULL DEFAULT 1,  -- 0 batch, 1 interactive
+    state          TEXT NOT NULL CHECK (state IN ('queued', 'running', 'canceling', 'succeeded',
+                                                  'failed', 'canceled')),
+    reason         TEXT NOT NULL DEFAULT '',
+    model          TEXT NOT NULL,
+    model_bytes    INTEGER NOT NULL,
+    fingerprint    TEXT NOT NULL,
+    created_ms     INTEGER NOT NULL,
+    started_ms     INTEGER,
+    finished_ms    INTEGER,
+    cancel_at_ms   INTEGER,
+    attempt        INTEGER NOT NULL DEFAULT 0,
+    lease_token    INTEGER,
+    lease_until_ms INTEGER,
+    revision       INTEGER NOT NULL DEFAULT 1,
+    error          TEXT NOT NULL DEFAULT '',
+    result         TEXT NOT NULL DEFAULT '',
+    parts          TEXT NOT NULL DEFAULT '',
+    retries        INTEGER NOT NULL DEFAULT 0,
+    not_before_ms  INTEGER NOT NULL DEFAULT 0,
+    request        TEXT NOT NULL,  -- last: it may be long, and what follows a long column is slow
+    UNIQUE (owner, id)
+);
+INSERT INTO jobs_of_owners SELECT seq, id, owner, tag, batch, 1, state, reason, model, model_bytes,
+    fingerprint, created_ms, started_ms, finished_ms, cancel_at_ms, attempt, lease_token,
+    lease_until_ms, revision, error, result, parts, retries, not_before_ms, request FROM jobs;
+INSERT OR REPLACE INTO sqlite_sequence (rowid, name, seq)
+    SELECT (SELECT rowid FROM sqlite_sequence WHERE name = 'jobs_of_owners'), 'jobs_of_owners', seq
+    FROM sqlite_sequence WHERE name = 'jobs';
+DROP TABLE jobs;
+ALTER TABLE jobs_of_owners RENAME TO jobs;
+CREATE INDEX jobs_by_state ON jobs (state, seq);
+CREATE INDEX jobs_by_owner_state ON jobs (state, owner);
+CREATE INDEX jobs_in_order ON jobs (owner, priority DESC, seq) WHERE state = 'queued';
+CREATE INDEX jobs_by_owner ON jobs (owner, seq);
+CREATE INDEX jobs_by_tag ON jobs (tag, seq) WHERE tag <> '';
+CREATE INDEX jobs_by_batch ON jobs (batch, seq) WHERE batch <> '';
+CREATE INDEX jobs_by_model ON jobs (model);
+CREATE INDEX jobs_by_result ON jobs (result) WHERE result <> '';
+CREATE INDEX jobs_by_end ON jobs (finished_ms) WHERE finished_ms IS NOT NULL;
+CREATE INDEX jobs_with_result ON jobs (finished_ms) WHERE result <> '';
+CREATE INDEX jobs_by_deadline ON jobs (cancel_at_ms) WHERE finished_ms IS NULL;
+
+DROP INDEX idempotency_by_id;
+CREATE INDEX idempotency_by_id ON idempotency (owner, id);
+
+CREATE TABLE expired_of_owners (
+    owner TEXT NOT NULL,
+    id    TEXT NOT NULL,
+    at_ms INTEGER NOT NULL,
+    PRIMARY KEY (owner, id)
+) WITHOUT ROWID;
+INSERT INTO expired_of_owners SELECT owner, id, at_ms FROM expired;
+DROP TABLE expired;
+ALTER TABLE expired_of_owners RENAME TO expired;
+CREATE INDEX expired_by_time ON expired (at_ms);
+
+CREATE TABLE webhooks_of_owners (
+    owner      TEXT NOT NULL,
+    id         TEXT NOT NULL,
+    url        TEXT NOT NULL,
+    secret     TEXT NOT NULL,
+    events     TEXT NOT NULL,
+    created_ms INTEGER NOT NULL,
+    job        TEXT NOT NULL,  -- of a single job: its id, which is this one's too; else empty
+    -- scheme, host and port
+    receiver   TEXT NOT NULL GENERATED ALWAYS AS (lower(substr(url, 1, instr(url, '://') + 1 +
+        instr(replace(replace(substr(url, instr(url, '://') + 3), '?', '/'), '#', '/') || '/',
+              '/')))) STORED,
+    PRIMARY KEY (owner, id)
+) WITHOUT ROWID;
+INSERT INTO webhooks_of_owners SELECT owner, id, url, secret, events, created_ms, job FROM webhooks;
+
+CREATE TABLE deliveries_of_owners (
+    seq            INTEGER PRIMARY KEY AUTOINCREMENT,
+    id             TEXT NOT NULL,
+    owner          TEXT NOT NULL,
+    webhook        TEXT NOT NULL,
+    receiver       TEXT NOT NULL,
+    event          TEXT NOT NULL,
+    payload        TEXT NOT NULL,
+    created_ms     INTEGER NOT NULL,
+    attempt        INTEGER NOT NULL DEFAULT 0,
+    next_ms        INTEGER,
+    lease_until_ms INTEGER,  -- while it is being sent
+    delivered      INTEGER NOT NULL DEFAULT 0,
+    status         INTEGER NOT NULL DEFAULT 0,
+    error          TEXT NOT NULL DEFAULT ''
+);
+INSERT INTO deliveries_of_owners SELECT d.seq, d.id, w.owner, d.webhook, w.receiver, d.event,
+    d.payload, d.created_ms, d.attempt, d.next_ms, NULL, d.delivered, d.status, d.error
+    FROM deliveries d JOIN webhooks_of_owners w ON w.id = d.webhook;
+DROP TABLE deliveries;
+DROP TABLE webhooks;
+ALTER TABLE webhooks_of_owners RENAME TO webhooks;
+ALTER TABLE deliveries_of_owners RENAME TO deliveries;
+CREATE INDEX webhooks_by_owner ON webhooks (owner, job);
+CREATE INDEX deliveries_due ON deliveries (owner, next_ms) WHERE next_ms IS NOT NULL;
+CREATE INDEX deliveries_by_receiver ON deliveries (owner, receiver) WHERE next_ms IS NOT NULL;
+CREATE INDEX deliveries_in_flight ON deliveries (owner) WHERE lease_until_ms IS NOT NULL;
+CREATE INDEX deliveries_by_webhook ON deliveries (owner, webhook, seq);
+
+-- Receivers that do not answer, until they do.
+CREATE TABLE silent_receivers (
+    owner    TEXT NOT NULL,
+    receiver TEXT NOT NULL,
+    failures INTEGER NOT NULL,
+    PRIMARY KEY (owner, receiver)
+) WITHOUT ROWID;
+
+-- When an owner was last served, as a number that grows with every turn.
+CREATE TABLE turns (
+    what  TEXT NOT NULL,
+    owner TEXT NOT NULL,
+    turn  INTEGER NOT NULL,
+    PRIMARY KEY (what, owner)
+) WITHOUT ROWID;
 )sql"};
 
 }  // namespace
 
-void migrate(SQLite::Database& database) {
+static_assert(migrations.size() == newest_schema);
+
+void migrate(SQLite::Database& database, int wanted) {
     int version = database.execAndGet("PRAGMA user_version").getInt();
-    const int newest = static_cast<int>(migrations.size());
-    if (version > newest) {
+    if (version > newest_schema) {
         throw StoreError("the database has schema " + std::to_string(version) +
-                         ", this version of the program knows up to " + std::to_string(newest) +
-                         "; use the newer program");
+                         ", this version of the program knows up to " +
+                         std::to_string(newest_schema) + "; use the newer program");
     }
-    while (version < newest) {
+    while (version < wanted) {
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         // Another process may have been faster.
         version = database.execAndGet("PRAGMA user_version").getInt();
-        if (version >= newest) break;
+        if (version >= wanted) break;
         database.exec(migrations.at(static_cast<std::size_t>(version)));
         database.exec("PRAGMA user_version=" + std::to_string(++version));
         transaction.commit();

@@ -5,8 +5,11 @@
 
 namespace lastflat::server {
 
-/// Runs the migrations that the file has not had, each as a whole.
+/// What a file has that this program made.
+inline constexpr int newest_schema = 4;
+
+/// Runs the migrations up to `version` that the file has not had, each as a whole.
 /// Throws: SQLite::Exception; StoreError if the file is newer than the program.
-void migrate(SQLite::Database& database);
+void migrate(SQLite::Database& database, int version = newest_schema);
 
 }  // namespace lastflat::server

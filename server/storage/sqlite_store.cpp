@@ -4,6 +4,7 @@
 
 #include "server/jobs/result_parts.h"
 #include "server/storage/sqlite_rows.h"
+#include "server/storage/sqlite_turns.h"
 #include "server/support/clock.h"
 #include "server/support/crypto.h"
 
@@ -29,13 +30,14 @@ std::int64_t count(SqliteConnection& connection, const char* sql, const std::str
 
 /// An earlier job that this one repeats, or stands in the way of.
 std::optional<Admitted> earlier(SqliteConnection& connection, const NewJob& job) {
-    Query same_id(connection.prepared("SELECT owner, fingerprint FROM jobs WHERE id = ?"));
-    if (same_id.bind(job.id).next()) {
-        const bool same = same_id.text(0) == job.owner && same_id.text(1) == job.fingerprint;
+    Query same_id(connection.prepared("SELECT fingerprint FROM jobs WHERE owner = ? AND id = ?"));
+    if (same_id.bind(job.owner, job.id).next()) {
+        const bool same = same_id.text(0) == job.fingerprint;
         return Admitted{same ? Admission::repeated : Admission::id_taken, job.id};
     }
-    Query webhook(connection.prepared("SELECT 1 FROM webhooks WHERE id = ?"));
-    if (job.webhook && webhook.bind(job.id).next()) return Admitted{Admission::id_taken, job.id};
+    Query webhook(connection.prepared("SELECT 1 FROM webhooks WHERE owner = ? AND id = ?"));
+    if (job.webhook && webhook.bind(job.owner, job.id).next())
+        return Admitted{Admission::id_taken, job.id};
     if (job.idempotency_key.empty()) return std::nullopt;
     Query same_key(
         connection.prepared("SELECT fingerprint, id FROM idempotency WHERE owner = ? AND key = ?"));
@@ -46,11 +48,11 @@ std::optional<Admitted> earlier(SqliteConnection& connection, const NewJob& job)
 
 void insert(SqliteConnection& connection, const NewJob& job) {
     Query(connection.prepared(
-              "INSERT INTO jobs (id, owner, tag, batch, state, request, model, model_bytes, "
-              "fingerprint, created_ms, cancel_at_ms) "
-              "VALUES (?, ?, ?, ?, 'queued', ?, ?, ?, ?, ?, ?)"))
-        .bind(job.id, job.owner, job.tag, job.batch, job.request, job.model, job.model_bytes,
-              job.fingerprint, now_ms(), job.cancel_at_ms)
+              "INSERT INTO jobs (id, owner, tag, batch, priority, state, request, model, "
+              "model_bytes, fingerprint, created_ms, cancel_at_ms) "
+              "VALUES (?, ?, ?, ?, ?, 'queued', ?, ?, ?, ?, ?, ?)"))
+        .bind(job.id, job.owner, job.tag, job.batch, static_cast<int>(job.priority), job.request,
+              job.model, job.model_bytes, job.fingerprint, now_ms(), job.cancel_at_ms)
         .run();
     JobRow row;
     row.seq = connection.database().getLastInsertRowid();
@@ -68,19 +70,24 @@ void insert(SqliteConnection& connection, const NewJob& job) {
         .run();
 }
 
-std::vector<std::string> ids_of(Query& query) {
-    std::vector<std::string> ids;
-    while (query.next()) ids.push_back(query.text(0));
-    return ids;
+std::vector<std::string> texts_of(Query& query) {
+    std::vector<std::string> texts;
+    while (query.next()) texts.push_back(query.text(0));
+    return texts;
+}
+
+std::vector<JobRow> rows_of(SqliteConnection& connection, Query& query) {
+    std::vector<JobRow> rows;
+    while (query.next()) rows.push_back(row_of(connection, query.number(0)));
+    return rows;
 }
 
 void end_lost_leases(SqliteConnection& connection, bool all, const api::Problem& lost,
                      Swept& swept) {
     Query over(
-        connection.prepared("SELECT id FROM jobs WHERE state IN ('running', 'canceling') "
+        connection.prepared("SELECT seq FROM jobs WHERE state IN ('running', 'canceling') "
                             "AND (lease_until_ms <= ?1 OR ?2)"));
-    for (const std::string& id : ids_of(over.bind(now_ms(), all ? 1 : 0))) {
-        JobRow row = find_row(connection, "", id).value();
+    for (JobRow& row : rows_of(connection, over.bind(now_ms(), all ? 1 : 0))) {
         if (row.state == JobState::canceling) {
             change_state(connection, row, JobState::canceled);
         } else if (row.attempt >= most_attempts) {
@@ -91,20 +98,19 @@ void end_lost_leases(SqliteConnection& connection, bool all, const api::Problem&
         } else {
             change_state(connection, row, JobState::queued);
         }
-        swept.changed.push_back(id);
+        swept.changed.push_back(row.seq);
         swept.blobs.push_back(row.model);
     }
 }
 
 void end_overdue(SqliteConnection& connection, Swept& swept) {
     Query overdue(connection.prepared(
-        "SELECT id FROM jobs INDEXED BY jobs_by_deadline WHERE finished_ms IS NULL AND "
+        "SELECT seq FROM jobs INDEXED BY jobs_by_deadline WHERE finished_ms IS NULL AND "
         "cancel_at_ms <= ? AND state IN ('queued', 'running')"));
-    for (const std::string& id : ids_of(overdue.bind(now_ms()))) {
-        JobRow row = find_row(connection, "", id).value();
+    for (JobRow& row : rows_of(connection, overdue.bind(now_ms()))) {
         const bool waits = row.state == JobState::queued;
         change_state(connection, row, waits ? JobState::canceled : JobState::canceling, "deadline");
-        swept.changed.push_back(id);
+        swept.changed.push_back(row.seq);
         swept.blobs.push_back(row.model);
     }
 }
@@ -114,7 +120,7 @@ void forget_expired(SqliteConnection& connection, const Retention& retention, Sw
         connection.prepared("SELECT result FROM jobs INDEXED BY jobs_with_result "
                             "WHERE finished_ms <= ? AND result <> '' LIMIT 1000"));
     results.bind(now_ms() - retention.result_ms);
-    for (const std::string& blob : ids_of(results)) {
+    for (const std::string& blob : texts_of(results)) {
         Query(
             connection.prepared("UPDATE jobs SET result = '', parts = '', revision = revision + 1 "
                                 "WHERE result = ? AND result <> ''"))
@@ -122,12 +128,10 @@ void forget_expired(SqliteConnection& connection, const Retention& retention, Sw
             .run();
         swept.blobs.push_back(blob);
     }
-    Query jobs(connection.prepared("SELECT id FROM jobs WHERE finished_ms <= ? LIMIT 1000"));
-    for (const std::string& id : ids_of(jobs.bind(now_ms() - retention.job_ms))) {
-        const JobRow row = find_row(connection, "", id).value();
-        Query(connection.prepared("INSERT OR REPLACE INTO expired "
-                                  "SELECT id, owner, ?2 FROM jobs WHERE seq = ?1"))
-            .bind(row.seq, now_ms())
+    Query jobs(connection.prepared("SELECT seq FROM jobs WHERE finished_ms <= ? LIMIT 1000"));
+    for (const JobRow& row : rows_of(connection, jobs.bind(now_ms() - retention.job_ms))) {
+        Query(connection.prepared("INSERT OR REPLACE INTO expired VALUES (?, ?, ?)"))
+            .bind(row.owner, row.id, now_ms())
             .run();
         if (!row.result.empty()) swept.blobs.push_back(row.result);
         erase_row(connection, row);
@@ -167,11 +171,13 @@ Admitted SqliteStore::add(const NewJob& job, const QueueLimits& limits) {
 
 std::optional<Claim> SqliteStore::claim(std::int64_t lease_ms) {
     return database_.write([&](SqliteConnection& connection) -> std::optional<Claim> {
-        Query next(
-            connection.prepared("SELECT id FROM jobs WHERE state = 'queued' "
-                                "AND not_before_ms <= ? ORDER BY seq LIMIT 1"));
-        if (!next.bind(now_ms()).next()) return std::nullopt;
-        JobRow row = find_row(connection, "", next.text(0)).value();
+        const auto owner = take_job_turn(connection);
+        if (!owner) return std::nullopt;
+        Query next(connection.prepared(
+            "SELECT seq FROM jobs WHERE state = 'queued' AND owner = ? AND not_before_ms <= ? "
+            "ORDER BY priority DESC, seq LIMIT 1"));
+        if (!next.bind(*owner, now_ms()).next()) return std::nullopt;
+        JobRow row = row_of(connection, next.number(0));
         ++row.attempt;
         change_state(connection, row, JobState::running);
         const std::int64_t token = random_token();
@@ -180,13 +186,20 @@ std::optional<Claim> SqliteStore::claim(std::int64_t lease_ms) {
             .bind(token, now_ms() + lease_ms, row.seq)
             .run();
         Query job(connection.prepared(
-            "SELECT owner, tag, model, request, model_bytes, created_ms, retries, "
-            "cancel_at_ms FROM jobs WHERE seq = ?"));
+            "SELECT tag, request, model_bytes, created_ms, retries, cancel_at_ms FROM jobs "
+            "WHERE seq = ?"));
         if (!job.bind(row.seq).next()) return std::nullopt;
-        return Claim{{row.id, token},    job.text(0), job.text(1),
-                     job.text(2),        job.text(3), static_cast<std::uint64_t>(job.number(4)),
-                     job.number(5),      row.attempt, static_cast<int>(job.number(6)),
-                     job.maybe_number(7)};
+        return Claim{{row.seq, token},
+                     row.id,
+                     row.owner,
+                     job.text(0),
+                     row.model,
+                     job.text(1),
+                     static_cast<std::uint64_t>(job.number(2)),
+                     job.number(3),
+                     row.attempt,
+                     static_cast<int>(job.number(4)),
+                     job.maybe_number(5)};
     });
 }
 

@@ -17,8 +17,7 @@ public:
                                                 const std::string& id) override;
     [[nodiscard]] bool is_expired(const std::string& owner, const std::string& id) override;
     [[nodiscard]] JobList list(const std::string& owner, const JobFilter& filter) override;
-    [[nodiscard]] std::vector<StateChange> history(const std::string& id,
-                                                   std::int64_t after) override;
+    [[nodiscard]] std::vector<StateChange> history(JobNumber job, std::int64_t after) override;
     [[nodiscard]] JobCounts counts() override;
     [[nodiscard]] std::optional<Claim> claim(std::int64_t lease_ms) override;
     [[nodiscard]] Hold renew(const Lease& lease, std::int64_t lease_ms) override;

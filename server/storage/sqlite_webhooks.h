@@ -15,9 +15,11 @@ public:
     [[nodiscard]] std::optional<Webhook> find(const std::string& owner,
                                               const std::string& id) override;
     [[nodiscard]] bool remove(const std::string& owner, const std::string& id) override;
-    [[nodiscard]] std::vector<Delivery> deliveries(const std::string& id) override;
-    [[nodiscard]] bool add_test(const std::string& id) override;
-    [[nodiscard]] std::optional<DueDelivery> claim(std::int64_t lease_ms) override;
+    [[nodiscard]] std::vector<Delivery> deliveries(const std::string& owner,
+                                                   const std::string& id) override;
+    [[nodiscard]] bool add_test(const std::string& owner, const std::string& id) override;
+    [[nodiscard]] std::optional<DueDelivery> claim(std::int64_t lease_ms,
+                                                   int most_of_owner) override;
     void settle(const Delivery& delivery) override;
 
 private:

@@ -9,8 +9,8 @@ namespace lastflat::server {
 namespace {
 
 constexpr std::chrono::milliseconds look{500};
-/// A receiver that lets us wait keeps one of them.
-constexpr int most_at_once = 4;
+/// A receiver that lets us wait keeps one of them, and an owner's receivers together half.
+constexpr int most_at_once = 8, most_of_owner = 4;
 constexpr std::int64_t lease_ms = 60'000;
 constexpr int gone = 410;  ///< the receiver wants no more
 
@@ -48,7 +48,7 @@ WebhookDispatcher::~WebhookDispatcher() {
 
 bool WebhookDispatcher::send_one() {
     try {
-        auto due = store_.claim(lease_ms);
+        auto due = store_.claim(lease_ms, most_of_owner);
         if (!due) return false;
         Delivery& delivery = due->delivery;
         const PostOutcome outcome = post_(*due);

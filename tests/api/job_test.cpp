@@ -39,7 +39,8 @@ TEST_SUITE("api/job") {
         queued.queue_position = 2;
         queued.queue_s = 0.26;
         CHECK(to_json(queued) ==
-              R"({"id":"A","state":"queued","tag":"order","created_at":"2026-03-01T08:00:00.000Z",)"
+              R"({"id":"A","state":"queued","tag":"order","priority":"interactive",)"
+              R"("created_at":"2026-03-01T08:00:00.000Z",)"
               R"("attempt":0,"progress":{"stage":"queued","percent":0},)"
               R"("queue":{"position":2,"eta_s":0.3},"links":{"self":"/v1/jobs/A",)"
               R"("result":"/v1/jobs/A/result","metrics":"/v1/jobs/A/metrics",)"

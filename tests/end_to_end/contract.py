@@ -210,6 +210,7 @@ def walk_more(walk, example):
     walk.expect(422, "asset_not_found", "POST", "/v1/jobs", query="?asset_id=" + NO_ASSET, body=b"")
     walk.expect(400, "model_repeated", "POST", "/v1/jobs", query="?asset_id=" + digest, body=model)
     walk.expect(400, "header_invalid", "POST", "/v1/jobs", headers=["Cancel-After: soon"], body=model)
+    walk.expect(400, "header_invalid", "POST", "/v1/jobs", headers=["Job-Priority: first"], body=model)
 
     batch = walk.expect(202, None, "POST", "/v1/jobs:batch", headers=[json_type],
                         body=json.dumps({"jobs": [by_asset, {"model": {"asset_id": NO_ASSET}}]}).encode())

@@ -15,7 +15,7 @@ namespace {
 struct WakesCounted final : JobExecutor {
     int wakes = 0;
     void wake() override { ++wakes; }
-    void cancel(const std::string&) override {}
+    void cancel(JobNumber) override {}
 };
 
 struct IntakeSetting : test::TestStore {

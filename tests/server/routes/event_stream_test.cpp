@@ -14,6 +14,8 @@ namespace {
 
 using test::new_job;
 
+constexpr JobNumber first_job = 1;  ///< of the job that a test adds first
+
 /// A waiting room with so many seats.
 class Seats final : public http::WaitingRoom {
 public:
@@ -126,18 +128,18 @@ TEST_SUITE("server/routes/event_stream") {
         CHECK(summary(first) == R"(state="queued")");
 
         const Claim claim = s.store.claim(60'000).value();
-        s.watch.changed("A");
+        s.watch.changed(first_job);
         CHECK(summary(watcher.next()) == R"(state="running")");
-        s.watch.reach("A", "cut", 0.256);
+        s.watch.reach(first_job, "cut", 0.256);
         const std::string progress = watcher.next();
         CHECK(summary(progress, "stage") == R"(progress="cut")");
         CHECK(summary(progress, "percent") == "progress=25");
-        s.watch.changed("A");  // nothing that a client would see
+        s.watch.changed(first_job);  // nothing that a client would see
         CHECK(watcher.next().empty());
         CHECK(watcher.goes_on);
 
         REQUIRE(s.store.finish(claim.lease, result_with(s.blobs, quiet_metrics)));
-        s.watch.ended("A");
+        s.watch.ended(first_job);
         CHECK(summary(watcher.next()) == R"(state="succeeded" done="succeeded")");
         CHECK_FALSE(watcher.goes_on);
     }
@@ -166,13 +168,13 @@ TEST_SUITE("server/routes/event_stream") {
         StreamSetting s;
         REQUIRE(s.add(new_job("A")) == Admission::queued);
         const Claim claim = s.store.claim(60'000).value();
-        s.watch.reach("A", "cut", 0.25);
+        s.watch.reach(first_job, "cut", 0.25);
         Watcher watcher(s, s.request("A"));
         CHECK(summary(watcher.next(), "stage") == R"(state state progress="cut")");
         REQUIRE(s.store.release(claim.lease, Release::lost));
-        s.watch.ended("A");
+        s.watch.ended(first_job);
         REQUIRE(s.store.claim(60'000));
-        s.watch.reach("A", "load", 0.0);
+        s.watch.reach(first_job, "load", 0.0);
         const std::string again = watcher.next();
         CHECK(summary(again, "attempt") == "state=1 state=2 progress");
         CHECK(summary(again, "stage") == R"(state state progress="load")");
@@ -198,7 +200,7 @@ TEST_SUITE("server/routes/event_stream") {
         Watcher a(s, s.request("A"));
         (void)a.next();
         REQUIRE(s.store.remove("", "A"));
-        s.watch.changed("A");
+        s.watch.changed(first_job);
         CHECK(summary(a.next()) == "deleted");
         CHECK_FALSE(a.goes_on);
         a.response = {};
@@ -220,7 +222,7 @@ TEST_SUITE("server/routes/event_stream") {
             CHECK_FALSE(watcher.response.stream(gone));
             (void)watcher.next();
             REQUIRE(s.store.claim(60'000));
-            s.watch.changed("A");
+            s.watch.changed(first_job);
             CHECK_FALSE(watcher.response.stream(gone));
         }
         CHECK(s.seats.free() == 1);

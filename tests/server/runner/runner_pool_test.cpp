@@ -42,7 +42,7 @@ struct PoolSetting : test::TestStore {
     }
     /// The job in its final state, which the pool announces.
     JobRecord ended(const std::string& id) {
-        JobWatch::Subscription subscription(watch, id);
+        JobWatch::Subscription subscription(watch, store.find("", id).value().number);
         const auto deadline = JobWatch::Clock::now() + lastflat::test::long_enough;
         for (;;) {
             JobRecord job = store.find("", id).value();
@@ -109,14 +109,15 @@ TEST_SUITE("server/runner/runner_pool") {
             REQUIRE(s.add(new_job("A")) == Admission::queued);
             pool.wake();
             REQUIRE(s.runs("A"));
+            const JobNumber number = s.store.find("", "A").value().number;
             if (removes) {
                 CHECK(s.store.remove("", "A").has_value());
-                pool.cancel("A");
+                pool.cancel(number);
                 REQUIRE(s.reported(1));
                 CHECK(s.outcome(1) == "lost");
             } else {
                 CHECK(s.store.cancel("", "A") == JobState::canceling);
-                pool.cancel("A");
+                pool.cancel(number);
                 CHECK(s.ended("A").state == JobState::canceled);
                 CHECK(s.store.remove("", "A").has_value());
             }
@@ -193,20 +194,20 @@ TEST_SUITE("server/jobs/job_watch") {
     TEST_CASE("a subscription notices every change from its beginning on, and the end of all") {
         using Clock = JobWatch::Clock;
         JobWatch watch;
-        JobWatch::Subscription subscription(watch, "A");
+        JobWatch::Subscription subscription(watch, 1);
         CHECK_FALSE(subscription.wait_until(Clock::now()));
-        watch.changed("A");
+        watch.changed(1);
         CHECK(subscription.wait_until(Clock::now()));
         CHECK_FALSE(subscription.wait_until(Clock::now()));
-        watch.changed("B");
+        watch.changed(2);
         CHECK_FALSE(subscription.wait_until(Clock::now()));
-        watch.reach("A", "cut", 0.25);
+        watch.reach(1, "cut", 0.25);
         CHECK(subscription.wait_until(Clock::now()));
-        CHECK(watch.progress("A")->stage == "cut");
-        watch.reach("A", "measure", 0.5);
-        CHECK(watch.progress("A")->number == 2);
-        watch.ended("A");
-        CHECK_FALSE(watch.progress("A").has_value());
+        CHECK(watch.progress(1)->stage == "cut");
+        watch.reach(1, "measure", 0.5);
+        CHECK(watch.progress(1)->number == 2);
+        watch.ended(1);
+        CHECK_FALSE(watch.progress(1).has_value());
         CHECK(subscription.wait_until(Clock::now()));
         std::thread closer([&] { watch.close(std::chrono::milliseconds(0)); });
         CHECK_FALSE(subscription.wait_until(Clock::now() + std::chrono::hours(1)));

@@ -6,6 +6,7 @@
 #include <set>
 #include <thread>
 
+#include "server/storage/sqlite_schema.h"
 #include "server/support/clock.h"
 #include "tests/helpers/eventually.h"
 #include "tests/server/storage/test_store.h"
@@ -42,14 +43,74 @@ TEST_SUITE("server/storage/sqlite_store") {
         CHECK(s.store.find("", "B")->queue_position == 2);
         const auto claim = s.store.claim(long_lease);
         REQUIRE(claim.has_value());
-        CHECK(claim->lease.id == "A");
+        CHECK(claim->id == "A");
         CHECK(claim->model == "model-A");
         CHECK(claim->attempt == 1);
         CHECK(s.state("A") == JobState::running);
         CHECK(s.store.find("", "B")->queue_position == 1);
-        CHECK(s.store.claim(long_lease)->lease.id == "B");
+        CHECK(s.store.claim(long_lease)->id == "B");
         CHECK_FALSE(s.store.claim(long_lease).has_value());
         CHECK(s.store.counts().running == 2);
+    }
+
+    TEST_CASE("owners take turns, whoever was first and however many jobs they have") {
+        TestStore s;
+        for (int i = 0; i < 6; ++i)
+            REQUIRE(s.add(new_job("A" + std::to_string(i), "one")) == Admission::queued);
+        REQUIRE(s.add(new_job("B0", "two")) == Admission::queued);
+        REQUIRE(s.add(new_job("B1", "two")) == Admission::queued);
+        REQUIRE(s.add(new_job("C0", "three")) == Admission::queued);
+        CHECK(s.store.find("one", "A0")->queue_position == 3);  // at the latest
+        CHECK(s.store.find("one", "A5")->queue_position == 9);
+        CHECK(s.store.find("three", "C0")->queue_position == 3);
+        CHECK(s.store.find("two", "B1")->queue_position == 5);
+        std::string order;
+        while (const auto claim = s.store.claim(long_lease)) {
+            order += claim->id + " ";
+            REQUIRE(s.store.finish(claim->lease, failure()));
+        }
+        CHECK(order == "A0 C0 B0 A1 B1 A2 A3 A4 A5 ");
+    }
+
+    TEST_CASE("who has fewer jobs running is next") {
+        TestStore s;
+        for (const char* id : {"A0", "A1", "A2"})
+            REQUIRE(s.add(new_job(id, "one")) == Admission::queued);
+        CHECK(s.store.claim(long_lease)->id == "A0");
+        CHECK(s.store.claim(long_lease)->id == "A1");
+        REQUIRE(s.add(new_job("B0", "two")) == Admission::queued);
+        REQUIRE(s.add(new_job("B1", "two")) == Admission::queued);
+        CHECK(s.store.claim(long_lease)->id == "B0");
+        CHECK(s.store.claim(long_lease)->id == "B1");  // one against two
+        CHECK(s.store.claim(long_lease)->id == "A2");
+    }
+
+    TEST_CASE("an owner whose jobs are all put off keeps nobody waiting") {
+        TestStore s;
+        REQUIRE(s.add(new_job("A", "one")) == Admission::queued);
+        REQUIRE(s.store.release(s.store.claim(long_lease)->lease, Release::later));
+        REQUIRE(s.add(new_job("B", "two")) == Admission::queued);
+        CHECK(s.store.claim(long_lease)->id == "B");
+        CHECK_FALSE(s.store.claim(long_lease).has_value());
+    }
+
+    TEST_CASE("what somebody waits for goes first among the jobs of its owner, and only there") {
+        TestStore s;
+        const auto asked = [](const char* id, const char* owner, api::JobPriority priority) {
+            NewJob job = new_job(id, owner);
+            job.priority = priority;
+            return job;
+        };
+        using enum api::JobPriority;
+        for (const NewJob& j : {asked("A0", "one", batch), asked("A1", "one", interactive),
+                                asked("A2", "one", interactive), asked("B0", "two", batch)})
+            REQUIRE(s.add(j) == Admission::queued);
+        CHECK(s.store.find("one", "A0")->queue_position == 4);
+        CHECK(s.store.find("one", "A1")->queue_position == 2);
+        CHECK(s.store.find("one", "A0")->priority == batch);
+        std::string order;
+        while (const auto claim = s.store.claim(long_lease)) order += claim->id + " ";
+        CHECK(order == "A1 B0 A2 A0 ");
     }
 
     TEST_CASE("everything of a job survives its end and a new start") {
@@ -68,17 +129,17 @@ TEST_SUITE("server/storage/sqlite_store") {
         CHECK(job.finished_ms >= job.started_ms);
         CHECK(job.result_expires_ms < job.expires_ms);
         std::string states;
-        for (const StateChange& change : store.history("A", 0))
+        for (const StateChange& change : store.history(job.number, 0))
             states += std::string(name(change.state)) + " ";
         CHECK(states == "queued running succeeded ");
-        CHECK(store.history("A", 2).size() == 1);
+        CHECK(store.history(job.number, 2).size() == 1);
     }
 
     TEST_CASE("a lost lease can change nothing") {
         TestStore s;
         REQUIRE(s.add(new_job("A")) == Admission::queued);
         const auto first = s.store.claim(0).value();  // over at once
-        CHECK(s.store.sweep(false, test::lost).changed == std::vector<std::string>{"A"});
+        CHECK(s.store.sweep(false, test::lost).changed == std::vector<JobNumber>{first.lease.job});
         CHECK(s.state("A") == JobState::queued);
         CHECK(s.store.renew(first.lease, long_lease) == Hold::lost);
         const auto second = s.store.claim(long_lease).value();
@@ -123,7 +184,7 @@ TEST_SUITE("server/storage/sqlite_store") {
         REQUIRE(s.add(new_job("B")) == Admission::queued);
         CHECK(s.store.release(s.store.claim(long_lease)->lease, Release::later) ==
               JobState::queued);
-        CHECK(s.store.claim(long_lease)->lease.id == "B");
+        CHECK(s.store.claim(long_lease)->id == "B");
         CHECK_FALSE(s.store.claim(long_lease).has_value());  // A: in five seconds
         CHECK(s.store.find("", "A")->attempt == 0);
     }
@@ -197,6 +258,28 @@ TEST_SUITE("server/storage/sqlite_store") {
         CHECK(s.store.list("two", {}).jobs.empty());
         CHECK(s.store.find("one", "A").has_value());
         CHECK(s.store.remove("one", "A").has_value());
+    }
+
+    TEST_CASE("an id is an owner's own: others may have the same, and neither meets the other") {
+        TestStore s;
+        NewJob other = new_job("A", "two");
+        other.fingerprint = "another";
+        other.idempotency_key = "order-1";
+        REQUIRE(s.add(new_job("A", "one")) == Admission::queued);
+        REQUIRE(s.add(other) == Admission::queued);
+        const auto first = s.store.claim(long_lease).value(),
+                   second = s.store.claim(long_lease).value();
+        CHECK(first.owner != second.owner);
+        REQUIRE(s.store.finish(first.lease, success("of one")));
+        CHECK(s.store.find("two", "A")->state == JobState::running);
+        CHECK(s.store.remove("one", "A").has_value());
+        CHECK(s.store.find("two", "A")->state == JobState::running);
+        CHECK(s.add(other) == Admission::repeated);
+        SqliteStore strict(s.database, Retention{-1, -1});
+        REQUIRE(s.store.finish(second.lease, success()));
+        (void)strict.sweep(false, test::lost);
+        CHECK(strict.is_expired("two", "A"));
+        CHECK_FALSE(strict.is_expired("one", "A"));
     }
 
     TEST_CASE("a list goes on where it stopped, with its filters") {
@@ -278,6 +361,48 @@ TEST_SUITE("server/storage/sqlite_store") {
         CHECK(finished == jobs);
         for (int i = 0; i < jobs; ++i)
             CHECK(s.store.find("", "J" + std::to_string(i))->attempt == 1);
+    }
+
+    TEST_CASE("what an earlier program kept is there in this one") {
+        lastflat::test::TemporaryFolder folder;
+        const auto file = folder.path() / "jobs.sqlite";
+        {
+            SQLite::Database old(file, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+            migrate(old, 3);
+            old.exec(R"sql(
+INSERT INTO jobs (seq, id, owner, tag, batch, state, model, model_bytes, fingerprint, created_ms, request)
+    VALUES (5, 'A', 'key', 't', 'b', 'queued', 'm', 7, 'f', 1, '{}');
+INSERT INTO sqlite_sequence VALUES ('other', 3);
+UPDATE sqlite_sequence SET seq = 9 WHERE name = 'jobs';
+INSERT INTO changes VALUES (5, 1, 1, 'queued', 0);
+INSERT INTO idempotency VALUES ('key', 'once', 'f', 'A');
+INSERT INTO expired VALUES ('E', 'key', 1);
+INSERT INTO webhooks VALUES ('W', 'key', 'https://Example.com:8443?x=/y', 's', 'job.failed', 1, '');
+INSERT INTO deliveries (id, webhook, event, payload, created_ms, next_ms)
+    VALUES ('msg', 'W', 'job.failed', '{}', 1, 2);
+)sql");
+        }
+        SqliteDatabase database(file);
+        SqliteStore store(database, {});
+        const JobRecord job = store.find("key", "A").value();
+        CHECK(job.batch == "b");
+        CHECK(job.model_bytes == 7);
+        CHECK(job.priority == api::JobPriority::interactive);
+        CHECK(store.history(job.number, 0).size() == 1);
+        CHECK(store.is_expired("key", "E"));
+        NewJob again = new_job("other", "key");
+        again.idempotency_key = "once";
+        again.fingerprint = "f";
+        CHECK(store.add(again, {}).admission == Admission::repeated);
+        again.idempotency_key.clear();
+        REQUIRE(store.add(again, {}).admission == Admission::queued);
+        CHECK(store.find("key", "other")->number == 10);  // numbers are never given twice
+        CHECK(store.claim(long_lease)->id == "A");
+        const std::string receiver = database.read([](SqliteConnection& connection) {
+            Query query(connection.prepared("SELECT receiver FROM deliveries WHERE owner = 'key'"));
+            return query.next() ? query.text(0) : "";
+        });
+        CHECK(receiver == "https://example.com:8443");
     }
 
     TEST_CASE("a database of a newer program is left alone") {

@@ -109,20 +109,20 @@ TEST_SUITE("server/webhooks/dispatcher") {
         webhooks.add(webhook("others", "another key", "job.succeeded"));
         REQUIRE(s.add(test::new_job("A", "key")) == Admission::queued);
         REQUIRE(s.add(test::new_job("B", "key")) == Admission::queued);
-        CHECK(webhooks.deliveries("all").empty());
+        CHECK(webhooks.deliveries("key", "all").empty());
         CHECK(s.store.finish(s.store.claim(60'000)->lease, test::success()));
         CHECK(s.store.cancel("key", "B") == JobState::canceled);
-        const auto sent = webhooks.deliveries("all");
+        const auto sent = webhooks.deliveries("key", "all");
         REQUIRE(sent.size() == 2);
         CHECK(sent[0].event == "job.canceled");
         CHECK(sent[1].event == "job.succeeded");
         CHECK(sent[1].payload.find("\"id\":\"A\"") != std::string::npos);
-        CHECK(webhooks.deliveries("failures").empty());
-        CHECK(webhooks.deliveries("others").empty());
+        CHECK(webhooks.deliveries("key", "failures").empty());
+        CHECK(webhooks.deliveries("another key", "others").empty());
         CHECK_FALSE(webhooks.remove("another key", "all"));
         CHECK(webhooks.remove("key", "all"));
-        CHECK(webhooks.deliveries("all").empty());
-        CHECK_FALSE(webhooks.claim(1000).has_value());
+        CHECK(webhooks.deliveries("key", "all").empty());
+        CHECK_FALSE(webhooks.claim(1000, 4).has_value());
     }
 
     TEST_CASE("a job's own webhook is told of that job alone, and goes with it") {
@@ -134,27 +134,76 @@ TEST_SUITE("server/webhooks/dispatcher") {
         REQUIRE(s.add(job) == Admission::repeated);
         REQUIRE(s.add(test::new_job("B", "key")) == Admission::queued);
         for (const char* id : {"A", "B"}) CHECK(s.store.cancel("key", id) == JobState::canceled);
-        REQUIRE(webhooks.deliveries("A").size() == 1);
+        REQUIRE(webhooks.deliveries("key", "A").size() == 1);
         CHECK(webhooks.list("key").empty());
         CHECK(webhooks.find("key", "A").value().url == "http://example.com/");
         CHECK_FALSE(webhooks.find("another key", "A").has_value());
-        CHECK(webhooks.claim(1000).value().delivery.event == "job.canceled");
+        CHECK(webhooks.claim(1000, 4).value().delivery.event == "job.canceled");
         CHECK(s.store.remove("key", "A"));
         CHECK_FALSE(webhooks.find("key", "A").has_value());
-        CHECK(webhooks.deliveries("A").empty());
+        CHECK(webhooks.deliveries("key", "A").empty());
     }
 
     TEST_CASE("a job that has the id of a webhook does not touch it") {
         test::TestStore s;
         SqliteWebhooks webhooks(s.database);
         webhooks.add(webhook("A", "key", "job.failed"));
-        NewJob job = test::new_job("A", "another key");
+        NewJob job = test::new_job("A", "key");
         job.webhook = api::WebhookRequest{"http://example.com/", {JobState::failed}, "whsec_"};
         CHECK(s.add(job) == Admission::id_taken);
         job.webhook.reset();
         REQUIRE(s.add(job) == Admission::queued);
+        CHECK(s.store.remove("key", "A"));
+        CHECK(webhooks.find("key", "A").has_value());
+        NewJob other = test::new_job("A", "another key");
+        other.webhook = api::WebhookRequest{"http://example.com/", {JobState::failed}, "whsec_"};
+        REQUIRE(s.add(other) == Admission::queued);
         CHECK(s.store.remove("another key", "A"));
         CHECK(webhooks.find("key", "A").has_value());
+    }
+
+    TEST_CASE("owners take turns, and none has all messages on the way") {
+        test::TestStore s;
+        SqliteWebhooks webhooks(s.database);
+        webhooks.add(webhook("A", "one", "job.failed"));
+        webhooks.add(webhook("B", "two", "job.failed"));
+        for (int i = 0; i < 4; ++i) REQUIRE(webhooks.add_test("one", "A"));
+        REQUIRE(webhooks.add_test("two", "B"));
+        std::string order;
+        while (const auto due = webhooks.claim(60'000, 3)) order += due->webhook.id;
+        CHECK(order == "ABAA");
+    }
+
+    TEST_CASE("a receiver that does not answer gets one message at a time, later and later") {
+        test::TestStore s;
+        SqliteWebhooks webhooks(s.database);
+        webhooks.add(webhook("A", "one", "job.failed"));
+        for (int i = 0; i < 3; ++i) REQUIRE(webhooks.add_test("one", "A"));
+        const auto settle = [&](Delivery delivery, int status) {
+            delivery.status = status;
+            delivery.next_ms = now_ms();
+            webhooks.settle(delivery);
+        };
+        const auto wait_of_next = [&] {
+            std::int64_t next = 0;
+            for (const Delivery& delivery : webhooks.deliveries("one", "A"))
+                next = std::max(next, delivery.next_ms.value());
+            return next - now_ms();
+        };
+        settle(webhooks.claim(60'000, 4).value().delivery, 0);
+        CHECK_FALSE(webhooks.claim(60'000, 4).has_value());
+        CHECK(wait_of_next() > 4'000);
+        CHECK(wait_of_next() <= 5'000);
+        s.database.write([](SqliteConnection& connection) {
+            Query(connection.prepared("UPDATE deliveries SET next_ms = 1")).run();
+        });
+        const auto probe = webhooks.claim(60'000, 4).value();
+        CHECK_FALSE(webhooks.claim(60'000, 4).has_value());  // while that one is tried
+        settle(probe.delivery, 0);
+        CHECK(wait_of_next() > 9'000);
+        settle(probe.delivery, 500);  // an answer, if not a good one
+        CHECK(wait_of_next() <= 0);
+        for (int i = 0; i < 3; ++i) CHECK(webhooks.claim(60'000, 4).has_value());
     }
 
     TEST_CASE("what fails is tried again later, what arrives is not, and 410 ends it") {
@@ -162,7 +211,7 @@ TEST_SUITE("server/webhooks/dispatcher") {
         SqliteWebhooks webhooks(s.database);
         for (const char* id : {"good", "broken", "gone"}) {
             webhooks.add(webhook(id, "", "job.failed"));
-            CHECK(webhooks.add_test(id));
+            CHECK(webhooks.add_test("", id));
         }
         std::atomic<int> posts{0};
         {
@@ -174,13 +223,13 @@ TEST_SUITE("server/webhooks/dispatcher") {
             REQUIRE(lastflat::test::eventually([&] { return posts == 3; }));
         }
         CHECK(posts == 3);
-        CHECK(webhooks.deliveries("good").at(0).delivered);
-        CHECK_FALSE(webhooks.deliveries("good").at(0).next_ms.has_value());
-        const Delivery broken = webhooks.deliveries("broken").at(0);
+        CHECK(webhooks.deliveries("", "good").at(0).delivered);
+        CHECK_FALSE(webhooks.deliveries("", "good").at(0).next_ms.has_value());
+        const Delivery broken = webhooks.deliveries("", "broken").at(0);
         CHECK_FALSE(broken.delivered);
         CHECK(broken.next_ms.value() > now_ms());
         CHECK(broken.status == 500);
-        CHECK_FALSE(webhooks.deliveries("gone").at(0).next_ms.has_value());
+        CHECK_FALSE(webhooks.deliveries("", "gone").at(0).next_ms.has_value());
     }
 }
 
