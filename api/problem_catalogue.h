@@ -117,6 +117,7 @@ inline constexpr CataloguedProblem problem_catalogue[] = {
     {"method_not_supported", 501},
     {"transfer_encoding_not_supported", 501},
     {"server_busy", 503},
+    {"client_busy", 429},
     {"version_not_supported", 505},
     // Of the command line alone
     {"arguments_invalid", 400},

@@ -11,6 +11,7 @@
 #include "server/cli/operator_commands.h"
 #include "server/cli/serve.h"
 #include "server/cli/usage_fault.h"
+#include "server/http/client_address.h"
 #include "server/support/duration.h"
 #include "server/support/flat_memory.h"
 #include "server/support/version.h"
@@ -138,6 +139,12 @@ CLI::App* add_serve(CLI::App& app, Arguments& a) {
         ->transform(one_of(targets))
         ->default_str("off");
     options.add("allow-origin", s.allowed_origins, "Web pages that may call (CORS), by origin");
+    options
+        .add("trusted-proxy", s.trusted_proxies,
+             "Addresses of proxies whose X-Forwarded-For names the client")
+        ->check([](const std::string& text) {
+            return http::is_address(text) ? "" : "'" + text + "' is no IP address";
+        });
     return serve;
 }
 

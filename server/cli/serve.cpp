@@ -65,6 +65,7 @@ http::ServerLimits public_limits(const Settings& settings) {
     limits.all_bodies_bytes = std::max(limits.all_bodies_bytes, limits.body_bytes);
     limits.connections = settings.connections;
     limits.waiting_requests = settings.streams;
+    limits.trusted_proxies = settings.trusted_proxies;
     return limits;
 }
 

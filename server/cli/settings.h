@@ -37,6 +37,7 @@ struct Settings {
     std::int64_t grace_ms = 20'000;             ///< for running jobs when the service ends
     WebhookTargets webhooks = WebhookTargets::none;
     std::vector<std::string> allowed_origins;  ///< web pages that may call (CORS)
+    std::vector<std::string> trusted_proxies;  ///< addresses whose X-Forwarded-For is believed
 };
 
 }  // namespace lastflat::server

@@ -94,6 +94,13 @@ api::Refusal overloaded() {
         .with_header("Retry-After", "5");
 }
 
+api::Refusal client_busy() {
+    return api::Refusal("client_busy",
+                        "This client has half of all connections, and as many requests waiting as "
+                        "one client may have. Wait for answers before asking more.")
+        .with_header("Retry-After", "1");
+}
+
 Response answer_to(const Request& request, const std::exception_ptr& thrown,
                    const ProblemMaker& problem) noexcept {
     try {

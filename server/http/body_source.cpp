@@ -28,6 +28,7 @@ BodySource::BodySource(int fd, const Head& head, std::string early, const Server
       limits_(limits),
       all_bodies_(all_bodies),
       stop_time_(stop_time),
+      rate_(limits),
       framing_(limits.body_bytes),
       left_(head.content_length),
       arrived_(std::move(early)) {}
@@ -82,10 +83,11 @@ void BodySource::read_chunks(Buffer& body) {
 }
 
 /// At least one byte.
-std::size_t BodySource::receive(char* bytes, std::size_t size) const {
+std::size_t BodySource::receive(char* bytes, std::size_t size) {
     ssize_t got = 0;
     do {
-        if (!wait_for(fd_, SocketEvent::readable, deadline(), stop_time_)) {
+        const auto deadline = std::min(start_ + limits_.body_time, rate_.deadline());
+        if (!wait_for(fd_, SocketEvent::readable, deadline, stop_time_)) {
             throw api::Refusal("body_too_slow",
                                "The body did not arrive in time. Send it faster, or smaller.");
         }
@@ -95,24 +97,13 @@ std::size_t BodySource::receive(char* bytes, std::size_t size) const {
         throw api::Refusal("body_cut_off",
                            "The connection ended before the body did. Send it again.");
     }
+    rate_.note(static_cast<std::size_t>(got));
     return static_cast<std::size_t>(got);
 }
 
 void BodySource::take(std::size_t bytes) {
     taken_ += bytes;
     if (!all_bodies_.take(bytes)) throw overloaded();
-}
-
-Clock::time_point BodySource::deadline() const {
-    // The time by which the bytes so far would be too few is a deadline like any other.
-    const double seconds =
-        static_cast<double>(raw_bytes_) /
-        static_cast<double>(std::max<std::size_t>(limits_.body_bytes_per_second, 1));
-    const double capped = std::min(seconds, 1e6);
-    const auto by_rate =
-        start_ + limits_.slow_body_grace +
-        std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(capped));
-    return std::min(start_ + limits_.body_time, by_rate);
 }
 
 }  // namespace lastflat::http

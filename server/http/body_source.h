@@ -10,6 +10,7 @@
 #include "server/http/buffer.h"
 #include "server/http/chunked_framing.h"
 #include "server/http/head.h"
+#include "server/http/least_rate.h"
 #include "server/http/socket.h"
 
 namespace lastflat::http {
@@ -51,9 +52,8 @@ public:
 private:
     void read_known_length(Buffer& body);
     void read_chunks(Buffer& body);
-    [[nodiscard]] std::size_t receive(char* bytes, std::size_t size) const;
+    [[nodiscard]] std::size_t receive(char* bytes, std::size_t size);
     void take(std::size_t bytes);
-    [[nodiscard]] Clock::time_point deadline() const;
 
     const int fd_;
     const bool chunked_;
@@ -61,6 +61,7 @@ private:
     BodyBytes& all_bodies_;
     const StopTime& stop_time_;
     const Clock::time_point start_ = Clock::now();
+    LeastRate rate_;
     ChunkedFraming framing_;
     std::uint64_t left_;  ///< of a body of known length
     std::uint64_t raw_bytes_ = 0;

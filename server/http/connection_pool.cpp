@@ -1,17 +1,61 @@
 #include "server/http/connection_pool.h"
 
+#include <tuple>
 #include <utility>
 
 namespace lastflat::http {
+namespace {
 
-ConnectionPool::ConnectionPool(std::size_t serving, std::size_t waiting, std::size_t most_queued,
-                               Serve serve)
-    : most_serving_(serving),
-      most_waiting_(waiting),
-      most_queued_(most_queued),
-      serve_(std::move(serve)) {
+/// Whatever the others do, these find out who asks.
+constexpr std::size_t identifying_threads = 2;
+
+/// For connections that are refused: nothing waits there.
+class NoRoom final : public WaitingRoom {
+public:
+    bool enter() override { return false; }
+    void leave() override {}
+};
+
+}  // namespace
+
+/// A client's place while one of its connections is served.
+class ConnectionPool::Place final : public WaitingRoom {
+public:
+    Place(ConnectionPool& pool, Clients::iterator client) : pool_(pool), client_(client) {}
+
+    bool enter() override {
+        {
+            const std::lock_guard lock(pool_.mutex_);
+            if (pool_.waiting_ == pool_.limits_.waiting) return false;
+            ++pool_.waiting_;
+            --pool_.serving_;
+            --client_->second.serving;
+            ++client_->second.waiting;
+        }
+        pool_.changed_.notify_one();
+        return true;
+    }
+    void leave() override {
+        const std::lock_guard lock(pool_.mutex_);
+        --pool_.waiting_;
+        ++pool_.serving_;
+        --client_->second.waiting;
+        ++client_->second.serving;
+    }
+
+private:
+    ConnectionPool& pool_;
+    const Clients::iterator client_;
+};
+
+ConnectionPool::ConnectionPool(const PoolLimits& limits, Identify identify, Serve serve,
+                               Refuse refuse)
+    : limits_(limits),
+      identify_(std::move(identify)),
+      serve_(std::move(serve)),
+      refuse_(std::move(refuse)) {
     try {
-        for (std::size_t i = 0; i < serving + waiting; ++i)
+        for (std::size_t i = 0; i < limits.serving + limits.waiting + identifying_threads; ++i)
             threads_.emplace_back([this] { work(); });
     } catch (...) {
         finish();
@@ -22,29 +66,13 @@ ConnectionPool::ConnectionPool(std::size_t serving, std::size_t waiting, std::si
 bool ConnectionPool::offer(VettedConnection& connection) {
     {
         const std::lock_guard lock(mutex_);
-        const std::size_t idle = most_serving_ > serving_ ? most_serving_ - serving_ : 0;
-        if (finishing_ || queue_.size() >= most_queued_ + idle) return false;
-        queue_.push_back(std::move(connection));
+        const std::size_t idle = limits_.serving > serving_ ? limits_.serving - serving_ : 0;
+        const std::size_t queued = arrived_.size() + identifying_ + queued_;
+        if (finishing_ || queued >= limits_.queued + idle) return false;
+        arrived_.push_back(std::move(connection));
     }
     changed_.notify_one();
     return true;
-}
-
-bool ConnectionPool::enter() {
-    {
-        const std::lock_guard lock(mutex_);
-        if (waiting_ == most_waiting_) return false;
-        ++waiting_;
-        --serving_;
-    }
-    changed_.notify_one();
-    return true;
-}
-
-void ConnectionPool::leave() {
-    const std::lock_guard lock(mutex_);
-    --waiting_;
-    ++serving_;
 }
 
 void ConnectionPool::finish() {
@@ -57,29 +85,91 @@ void ConnectionPool::finish() {
     threads_.clear();
 }
 
+ConnectionPool::Clients::iterator ConnectionPool::next() {
+    auto best = clients_.end();
+    if (serving_ >= limits_.serving) return best;
+    const auto order = [](const Client& client) {
+        return std::tuple(client.serving, client.asked);
+    };
+    for (auto client = clients_.begin(); client != clients_.end(); ++client) {
+        if (client->second.queue.empty() || client->second.serving >= limits_.of_client) continue;
+        if (best == clients_.end() || order(client->second) < order(best->second)) best = client;
+    }
+    return best;
+}
+
+/// A thread that is done looks for what to do next, so others are woken for new connections alone,
+/// for places that are left for the waiting room, and at the end.
 void ConnectionPool::work() {
     std::unique_lock lock(mutex_);
     while (true) {
-        changed_.wait(lock, [this] {
-            return (finishing_ && queue_.empty()) || (!queue_.empty() && serving_ < most_serving_);
+        auto client = clients_.end();
+        changed_.wait(lock, [&] {
+            client = next();
+            return client != clients_.end() || !arrived_.empty() ||
+                   (finishing_ && queued_ == 0 && identifying_ == 0);
         });
-        if (queue_.empty()) return;
-        VettedConnection connection = std::move(queue_.front());
-        queue_.pop_front();
-        ++serving_;
-        lock.unlock();
-        try {
-            serve_(std::move(connection));
-        } catch (...) {
-            // The connection closes itself; the thread goes on.
-        }
-        lock.lock();
-        --serving_;
-        // One of those that wait for a seat may go on; at the end, all must look.
-        if (finishing_)
-            changed_.notify_all();
+        if (client != clients_.end())
+            serve_one(lock, client);
+        else if (!arrived_.empty())
+            identify_one(lock);
         else
-            changed_.notify_one();
+            return;
+    }
+}
+
+void ConnectionPool::identify_one(std::unique_lock<std::mutex>& lock) {
+    VettedConnection connection = std::move(arrived_.front());
+    arrived_.pop_front();
+    ++identifying_;
+    lock.unlock();
+    const std::string name = identify_(connection);
+    lock.lock();
+    const bool is_refused = connection.refused.has_value();
+    const auto client = is_refused ? clients_.end() : clients_.try_emplace(name).first;
+    if (!is_refused && client->second.queue.size() < limits_.queued_of_client) {
+        if (client->second.queue.empty()) client->second.asked = ++turns_;
+        client->second.queue.push_back(std::move(connection));
+        ++queued_;
+    } else {
+        // Small answers, which no client can make wait.
+        lock.unlock();
+        if (!is_refused) connection.refused = refuse_(connection.head.request);
+        NoRoom none;
+        serve(std::move(connection), none);
+        lock.lock();
+    }
+    --identifying_;
+    if (finishing_) changed_.notify_all();
+}
+
+void ConnectionPool::serve_one(std::unique_lock<std::mutex>& lock, Clients::iterator client) {
+    VettedConnection connection = std::move(client->second.queue.front());
+    client->second.queue.pop_front();
+    client->second.asked = ++turns_;
+    --queued_;
+    ++serving_;
+    ++client->second.serving;
+    Place place(*this, client);
+    lock.unlock();
+    serve(std::move(connection), place);
+    lock.lock();
+    --serving_;
+    --client->second.serving;
+    drop_if_idle(client);
+    if (finishing_) changed_.notify_all();
+}
+
+void ConnectionPool::drop_if_idle(Clients::iterator client) {
+    const Client& it = client->second;
+    if (it.serving == 0 && it.waiting == 0 && it.queue.empty()) clients_.erase(client);
+}
+
+void ConnectionPool::serve(VettedConnection connection, WaitingRoom& room) const {
+    try {
+        serve_(std::move(connection), room);
+    } catch (...) {
+        // The connection closes itself; the thread goes on.
     }
 }
 

@@ -1,11 +1,13 @@
-// Threads that serve connections, and the bounded queue in front of them.
+// Threads that serve connections, and the bounded queues in front of them.
 #pragma once
 
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
 #include <functional>
+#include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,38 +21,69 @@ namespace lastflat::http {
 struct VettedConnection {
     Socket socket;
     Head head;
-    std::string early_body;  ///< what arrived behind the head
+    std::string early_body;           ///< what arrived behind the head
+    Clock::time_point begun{};        ///< when a thread took it
+    std::optional<Response> refused;  ///< the answer, if it is not served
 };
 
-class ConnectionPool : public WaitingRoom {
-public:
-    using Serve = std::function<void(VettedConnection)>;
+struct PoolLimits {
+    std::size_t serving = 1;           ///< connections served at once
+    std::size_t of_client = 1;         ///< of them, of one client
+    std::size_t waiting = 0;           ///< seats in the waiting room, beside those served
+    std::size_t queued = 0;            ///< connections that wait to be served
+    std::size_t queued_of_client = 1;  ///< of them, of one client
+};
 
-    /// Starts the threads. `serve` runs on them, `serving` at once beside `waiting` that wait; what
-    /// it throws is dropped.
-    ConnectionPool(std::size_t serving, std::size_t waiting, std::size_t most_queued, Serve serve);
-    ~ConnectionPool() override { finish(); }
+/// A client has its share of the places, and the next free place goes to the client that has the
+/// fewest: whatever one does, others are served.
+class ConnectionPool {
+public:
+    /// Tells whom the connection counts for. One that it refuses counts for nobody.
+    using Identify = std::function<std::string(VettedConnection&)>;
+    /// The room is where the connection's handler may wait.
+    using Serve = std::function<void(VettedConnection, WaitingRoom& room)>;
+    /// The answer for a client that has too many connections waiting.
+    using Refuse = std::function<Response(const Request&)>;
+
+    /// Starts the threads, which call the three; what `serve` throws is dropped.
+    ConnectionPool(const PoolLimits& limits, Identify identify, Serve serve, Refuse refuse);
+    ~ConnectionPool() { finish(); }
     ConnectionPool(const ConnectionPool&) = delete;
     ConnectionPool& operator=(const ConnectionPool&) = delete;
 
     /// Queues the connection, or leaves it untouched and returns false if the queue is full.
     [[nodiscard]] bool offer(VettedConnection& connection);
 
-    [[nodiscard]] bool enter() override;
-    void leave() override;
-
     /// Serves what is queued, then ends the threads.
     void finish();
 
 private:
-    void work();
+    struct Client {
+        std::size_t serving = 0, waiting = 0;
+        std::deque<VettedConnection> queue;
+        std::uint64_t asked = 0;  ///< when the first of the queue came to be the first
+    };
+    using Clients = std::map<std::string, Client>;
+    class Place;
 
-    const std::size_t most_serving_, most_waiting_, most_queued_;
+    void work();
+    void identify_one(std::unique_lock<std::mutex>& lock);
+    void serve_one(std::unique_lock<std::mutex>& lock, Clients::iterator client);
+    void serve(VettedConnection connection, WaitingRoom& room) const;
+    /// Whose turn it is; the end: nobody's.
+    [[nodiscard]] Clients::iterator next();
+    void drop_if_idle(Clients::iterator client);
+
+    const PoolLimits limits_;
+    const Identify identify_;
     const Serve serve_;
+    const Refuse refuse_;
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<VettedConnection> queue_;
-    std::size_t serving_ = 0, waiting_ = 0;
+    std::deque<VettedConnection> arrived_;  ///< nobody's yet
+    Clients clients_;
+    std::size_t queued_ = 0, serving_ = 0, waiting_ = 0, identifying_ = 0;
+    std::uint64_t turns_ = 0;
     bool finishing_ = false;
     std::vector<std::thread> threads_;
 };

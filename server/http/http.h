@@ -57,11 +57,12 @@ struct Request {
     std::map<std::string, std::string>
         headers;                        ///< names in lower case; repeated ones joined by ", "
     std::vector<std::string> captures;  ///< what the route's groups matched
-    std::string remote_address;         ///< of the peer; no header can change it
+    std::string remote_address;         ///< of the client; only a trusted proxy can name another
     std::vector<BodyPart> body;         ///< empty for a request without one
     std::string principal;              ///< who asks, as `Admit` found out
     std::vector<std::pair<std::string, std::string>> answer_headers;  ///< whatever the answer is
     WaitingRoom* waiting_room = nullptr;
+    std::function<bool()> is_client_gone;  ///< it has hung up; while the handler runs
 
     /// The header's value, empty if it is absent. `name` in lower case.
     [[nodiscard]] std::string_view header(const std::string& name) const {
@@ -101,17 +102,20 @@ struct ServerLimits {
     std::size_t body_parts = 16;
     std::size_t head_bytes = 16u << 10;
     std::size_t head_lines = 100;
-    std::size_t connections = 64;            ///< served at once, each on a thread
-    std::size_t waiting_requests = 64;       ///< in the waiting room
-    std::size_t queued_requests = 256;       ///< complete heads waiting for a thread; more get 503
+    std::size_t connections = 64;  ///< served at once, each on a thread; half of them of one client
+    std::size_t waiting_requests = 64;  ///< in the waiting room
+    /// Complete heads waiting for a thread; more get 503, half of them of one client: 429.
+    std::size_t queued_requests = 256;
     std::size_t waiting_connections = 4096;  ///< head not complete; also bounded by RLIMIT_NOFILE
     /// From accept, or from the last answer, to the end of the head.
     std::chrono::milliseconds head_time{10'000};
-    std::chrono::milliseconds body_time{60'000};  ///< from a thread taking the request to its end
-    std::size_t body_bytes_per_second = 8192;     ///< on average, once `slow_body_grace` is over
-    std::chrono::milliseconds slow_body_grace{5'000};
+    std::chrono::milliseconds body_time{60'000};   ///< from a thread taking the request to its end
     std::chrono::milliseconds write_time{60'000};  ///< for the whole answer
-    std::chrono::milliseconds stop_time{5'000};    ///< for bodies and answers once `stop` is called
+    /// Of a body that is sent and of an answer that is read, in every window of time.
+    std::size_t least_bytes_per_second = 8192;
+    std::chrono::milliseconds rate_window{10'000};
+    std::chrono::milliseconds stop_time{5'000};  ///< for bodies and answers once `stop` is called
+    std::vector<std::string> trusted_proxies{};  ///< whose X-Forwarded-For is believed: addresses
 };
 
 /// Makes the answer to what was thrown while a request was read (404, 405, 413, 503, ...) or by its
@@ -120,7 +124,8 @@ using ProblemMaker =
     std::function<Response(const Request& request, const std::exception_ptr& thrown)>;
 
 /// Decides about a request before its body is read; what it throws ends the request. May set
-/// `principal` and `answer_headers`. Called on connection threads.
+/// `principal`, which then is the client whose connections are counted together (else those of an
+/// address are), and `answer_headers`. Called on connection threads.
 using Admit = std::function<void(Request&)>;
 
 struct AnswerReport {

@@ -28,18 +28,19 @@ public:
           head_(std::move(head)),
           limits_(limits),
           stop_time_(stop_time),
+          rate_(limits),
           write_deadline_(Clock::now() + limits.write_time) {}
 
-    void start_answer() { write_deadline_ = Clock::now() + limits_.write_time; }
+    void start_answer() {
+        rate_.restart();
+        write_deadline_ = Clock::now() + limits_.write_time;
+    }
     [[nodiscard]] bool write_failed() const { return write_failed_; }
     [[nodiscard]] std::size_t sent() const { return sent_; }
 
     bool is_readable() const override { return true; }
-    /// A client that has closed its side is gone: what it sent is then an end, not bytes.
     bool is_writable() const override {
-        char byte = 0;
-        const bool closed = ::recv(fd_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
-        return !write_failed_ && !closed && Clock::now() < stop_time_.get();
+        return !write_failed_ && !has_hung_up(fd_) && Clock::now() < stop_time_.get();
     }
     ssize_t read(char* bytes, size_t size) override {
         const std::size_t given = head_.copy(bytes, size, head_used_);
@@ -53,8 +54,10 @@ public:
             const ssize_t sent = ::send(fd_, bytes + done, size - done, MSG_NOSIGNAL);
             if (sent >= 0) {
                 done += static_cast<std::size_t>(sent);
+                rate_.note(static_cast<std::size_t>(sent));
             } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
-                write_failed_ = !wait_for(fd_, SocketEvent::writable, write_deadline_, stop_time_);
+                const auto deadline = std::min(write_deadline_, rate_.deadline());
+                write_failed_ = !wait_for(fd_, SocketEvent::writable, deadline, stop_time_);
             } else if (errno != EINTR) {
                 write_failed_ = true;
             }
@@ -71,6 +74,7 @@ private:
     std::size_t head_used_ = 0;
     const ServerLimits& limits_;
     const StopTime& stop_time_;
+    LeastRate rate_;
     Clock::time_point write_deadline_;
     std::size_t sent_ = 0;
     bool write_failed_ = false;

@@ -28,6 +28,9 @@ private:
 /// 503: there is more to do than can be taken.
 [[nodiscard]] api::Refusal overloaded();
 
+/// 429: the client has more requests waiting than one client may.
+[[nodiscard]] api::Refusal client_busy();
+
 /// What `problem` makes of it. Never throws: a problem maker that does gets a bare 500.
 [[nodiscard]] Response answer_to(const Request& request, const std::exception_ptr& thrown,
                                  const ProblemMaker& problem) noexcept;

@@ -1,4 +1,5 @@
 // Puts the layer together: the library accepts, the gate waits for heads, the pools serve.
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <memory>
@@ -7,6 +8,7 @@
 #include <utility>
 
 #include "server/http/answer.h"
+#include "server/http/client_address.h"
 #include "server/http/connection_gate.h"
 #include "server/http/connection_pool.h"
 #include "server/http/head.h"
@@ -54,7 +56,9 @@ private:
                                                      std::size_t head_size);
     [[nodiscard]] std::string refusal_bytes(const RefusedHead& refusal) const;
     [[nodiscard]] std::string request_id(const Request& request);
-    void serve(VettedConnection connection);
+    [[nodiscard]] std::unique_ptr<ConnectionPool> pool(const PoolLimits& limits);
+    [[nodiscard]] std::string identify(VettedConnection& connection);
+    void serve(VettedConnection connection, WaitingRoom& room);
     [[nodiscard]] Response handle(Head& head, const HttpLibrary::ReadBody& read_body,
                                   Buffer& body) const;
 
@@ -79,11 +83,10 @@ void Server::Impl::run() {
             return on_head(socket, bytes, head_size);
         },
         [this](const RefusedHead& refusal) { return refusal_bytes(refusal); });
-    const auto serve_one = [this](VettedConnection connection) { serve(std::move(connection)); };
-    pool_ = std::make_unique<ConnectionPool>(limits_.connections, limits_.waiting_requests,
-                                             limits_.queued_requests, serve_one);
+    pool_ = pool({limits_.connections, (limits_.connections + 1) / 2, limits_.waiting_requests,
+                  limits_.queued_requests, std::max<std::size_t>(1, limits_.queued_requests / 2)});
     express_pool_ =
-        std::make_unique<ConnectionPool>(express_threads, 0, most_queued_express, serve_one);
+        pool({express_threads, express_threads, 0, most_queued_express, most_queued_express});
 
     const bool was_stopped = library_.accept_until_stopped();
 
@@ -132,22 +135,42 @@ std::string Server::Impl::request_id(const Request& request) {
     return start_ + "-" + std::to_string(++requests_);
 }
 
-void Server::Impl::serve(VettedConnection connection) {
-    const auto begun = Clock::now();
-    Head& head = connection.head;
-    Request& request = head.request;
-    request.remote_address = peer_address(connection.socket.fd());
+std::unique_ptr<ConnectionPool> Server::Impl::pool(const PoolLimits& limits) {
+    return std::make_unique<ConnectionPool>(
+        limits, [this](VettedConnection& connection) { return identify(connection); },
+        [this](VettedConnection connection, WaitingRoom& room) {
+            serve(std::move(connection), room);
+        },
+        [this](const Request& request) {
+            return answer_to(request, std::make_exception_ptr(client_busy()), hooks_.problem);
+        });
+}
+
+std::string Server::Impl::identify(VettedConnection& connection) {
+    connection.begun = Clock::now();
+    Request& request = connection.head.request;
+    request.remote_address =
+        client_address(peer_address(connection.socket.fd()), request.header("x-forwarded-for"),
+                       limits_.trusted_proxies);
     request.id = request_id(request);
     request.answer_headers.emplace_back("X-Request-Id", request.id);
-    request.waiting_room = head.route->express ? express_pool_.get() : pool_.get();
-    // Asked before the library is: it would ask the client for a body that nobody wants.
-    std::optional<Response> refused;
     try {
         if (hooks_.admit) hooks_.admit(request);
     } catch (...) {
-        refused = answer_to(request, std::current_exception(), hooks_.problem);
-        head.awaits_continue = false;
+        connection.refused = answer_to(request, std::current_exception(), hooks_.problem);
     }
+    if (!request.principal.empty()) return "key " + request.principal;
+    return "address " + network_of(request.remote_address);
+}
+
+void Server::Impl::serve(VettedConnection connection, WaitingRoom& room) {
+    Head& head = connection.head;
+    Request& request = head.request;
+    request.waiting_room = &room;
+    request.is_client_gone = [fd = connection.socket.fd()] { return has_hung_up(fd); };
+    auto& refused = connection.refused;
+    // The library would ask the client for a body that nobody wants.
+    if (refused) head.awaits_continue = false;
     auto outcome = library_.exchange(connection, [&](const HttpLibrary::ReadBody& read_body) {
         Buffer body;
         Response response = refused ? std::move(*refused) : handle(head, read_body, body);
@@ -157,7 +180,7 @@ void Server::Impl::serve(VettedConnection connection) {
         return response;
     });
     if (hooks_.answered) {
-        const std::chrono::duration<double> taken = Clock::now() - begun;
+        const std::chrono::duration<double> taken = Clock::now() - connection.begun;
         hooks_.answered({request, head.route->pattern, outcome.status, taken.count(),
                          outcome.bytes_received, outcome.bytes_sent});
     }

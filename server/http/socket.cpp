@@ -36,6 +36,11 @@ void prepare_accepted(int fd) {
     ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
 }
 
+bool has_hung_up(int fd) {
+    char byte = 0;
+    return ::recv(fd, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
+}
+
 std::string peer_address(int fd) {
     sockaddr_storage address{};
     socklen_t length = sizeof address;

@@ -36,6 +36,9 @@ enum class SocketEvent { readable, writable };
 /// Makes an accepted socket non-blocking, closed on exec, and without Nagle's delay.
 void prepare_accepted(int fd);
 
+/// A client that has closed its side is gone: what it sent is then an end, not bytes.
+[[nodiscard]] bool has_hung_up(int fd);
+
 /// The peer's address without its port; empty if it is gone.
 [[nodiscard]] std::string peer_address(int fd);
 

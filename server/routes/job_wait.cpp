@@ -4,6 +4,11 @@
 #include "server/routes/answers.h"
 
 namespace lastflat::server {
+namespace {
+
+constexpr std::chrono::milliseconds look_at_client{250};
+
+}  // namespace
 
 JobRecord JobWait::wait(const http::Request& request, JobRecord job, int seconds) const {
     const WaitingSeat seat(seats_, request);
@@ -15,7 +20,12 @@ JobRecord JobWait::wait(const http::Request& request, JobRecord job, int seconds
         job = found_job(jobs_, request.principal, job.id);
         if (is_final(job.state)) return job;
         if (until_change && !has_already(request, view_.etag(job))) return job;
-        if (!subscription.wait_until(deadline)) return job;
+        // The seat of a client that has gone is free for others.
+        while (
+            !subscription.wait_until(std::min(deadline, JobWatch::Clock::now() + look_at_client))) {
+            const bool over = JobWatch::Clock::now() >= deadline || watch_.is_closed();
+            if (over || request.is_client_gone()) return job;
+        }
     }
 }
 

@@ -13,7 +13,7 @@ Response TaskAnswers::answer(const http::Request& request, Task task, std::strin
     if (!seat.is_taken())
         api::refuse("validations_full",
                     "too many models and patterns are being looked at; try again later");
-    const ProcessEnd end = run_(request.principal, task, model, text);
+    const ProcessEnd end = run_({request.principal, task, model, text, request.is_client_gone});
     if (const auto* report = std::get_if<Report>(&end)) return json_response(200, report->json);
     if (const auto* failed = std::get_if<Failed>(&end)) throw api::Refusal(failed->problem);
     const auto* unfinished = std::get_if<Unfinished>(&end);

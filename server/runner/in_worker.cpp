@@ -37,26 +37,25 @@ RunJob run_jobs_in_workers(const ProcessLimits& limits, const BlobStore& blobs) 
 RunTask run_tasks_in_workers(const ProcessLimits& limits, const std::filesystem::path& work,
                              std::function<bool()> ends) {
     const auto turns = std::make_shared<Turns>(most_tasks);
-    return
-        [turns, work, ends = std::move(ends), limits](
-            const std::string& owner, Task task, std::string_view model, std::string_view request) {
-            if (!turns->enter(owner, ends))
-                return ProcessEnd(Unfinished{Unfinished::Kind::stopped, {}});
-            const std::filesystem::path file = work / ("task-" + new_job_id());
-            const ScopeExit clear([&] {
-                unlink(file.c_str());
-                turns->leave(owner);
-            });
-            write_durably(file, model);
-            WorkOrder order;
-            order.task = task;
-            order.digest = sha256(model);
-            order.model = file;
-            order.request = request;
-            order.threads = hardware_threads();
-            return run_worker_process(std::move(order), limits,
-                                      {[](const std::string&, double) {}, ends});
-        };
+    return [turns, work, ends = std::move(ends), limits](const TaskCall& call) {
+        const auto is_over = [&] { return ends() || call.is_unwanted(); };
+        if (!turns->enter(call.owner, is_over))
+            return ProcessEnd(Unfinished{Unfinished::Kind::stopped, {}});
+        const std::filesystem::path file = work / ("task-" + new_job_id());
+        const ScopeExit clear([&] {
+            unlink(file.c_str());
+            turns->leave(call.owner);
+        });
+        write_durably(file, call.model);
+        WorkOrder order;
+        order.task = call.task;
+        order.digest = sha256(call.model);
+        order.model = file;
+        order.request = call.request;
+        order.threads = hardware_threads();
+        return run_worker_process(std::move(order), limits,
+                                  {[](const std::string&, double) {}, is_over});
+    };
 }
 
 }  // namespace lastflat::server

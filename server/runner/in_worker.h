@@ -9,12 +9,16 @@ namespace lastflat::server {
 [[nodiscard]] RunJob run_jobs_in_workers(const ProcessLimits& limits, const BlobStore& blobs);
 
 /// A short task in a worker of its own: an inspection, or a mapping.
-/// `owner`: who asks for it.
-using RunTask = std::function<ProcessEnd(const std::string& owner, Task task,
-                                         std::string_view model, std::string_view request)>;
+struct TaskCall {
+    std::string owner;  ///< who asks for it
+    Task task = Task::inspect;
+    std::string_view model, request;
+    std::function<bool()> is_unwanted;  ///< nobody waits for it any more
+};
+using RunTask = std::function<ProcessEnd(const TaskCall& call)>;
 
 /// Few at once, others wait, and owners take turns: each may use as much as a job. `work`: a folder
-/// for the models. Once `ends` says so they end at once, as stopped.
+/// for the models. Once `ends` says so they end at once, as stopped; so does what is unwanted.
 [[nodiscard]] RunTask run_tasks_in_workers(const ProcessLimits& limits,
                                            const std::filesystem::path& work,
                                            std::function<bool()> ends);

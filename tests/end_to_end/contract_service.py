@@ -46,8 +46,9 @@ class Server:
         self.process.wait()
         self.folder.cleanup()
 
-    def open(self, data):
-        connection = socket.create_connection(("127.0.0.1", self.port), timeout=60)
+    def open(self, data, source="127.0.0.1"):
+        """A connection from one of this machine's own addresses, each of which is a client."""
+        connection = socket.create_connection(("127.0.0.1", self.port), timeout=60, source_address=(source, 0))
         connection.sendall(data)
         return connection
 

@@ -149,13 +149,21 @@ def walk_busy(program, contract):
     try:
         walk = Walk(server, contract)
         half_sent = b"POST /v1/assets HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: 9\r\n\r\n"
-        held = [server.open(half_sent) for _ in range(64)]
-        for connection in held:  # a thread that asks for the body has nothing else to do until it comes
-            answer = connection.recv(100)
-            assert answer.startswith(b"HTTP/1.1 100 "), answer
-        # One more than there are places to wait: when it is refused, the others have theirs.
-        waiting = [server.open(b"GET /v1/jobs HTTP/1.1\r\nHost: localhost\r\n\r\n") for _ in range(257)]
-        refused = server.first_answered(waiting)
+        asked = b"GET /v1/jobs HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
+        held, waiting = [], []
+        for client in ("127.0.0.2", "127.0.0.3"):  # each has half of the threads, and half of the places to wait
+            own = [server.open(half_sent, client) for _ in range(32)]
+            for connection in own:  # a thread that asks for the body has nothing else to do until it comes
+                answer = connection.recv(100)
+                assert answer.startswith(b"HTTP/1.1 100 "), answer
+            held += own
+            # One more than one client has places: when it is refused, the others have theirs.
+            own = [server.open(asked, client) for _ in range(129)]
+            refused = server.first_answered(own)
+            answer = contract.check("GET", "/v1/jobs", server.read(refused))
+            assert answer.get("code") == ("server_busy" if waiting else "client_busy"), answer
+            waiting += [one for one in own if one is not refused]
+        refused = server.open(asked)
         answer = contract.check("GET", "/v1/jobs", server.read(refused))
         assert answer.get("code") == "server_busy", answer
         for method, path, operation in contract.operations():

@@ -41,6 +41,12 @@ public:
         changed_.notify_all();
         changed_.wait(lock, [this] { return open_; });
     }
+    /// Passes without waiting.
+    void count() {
+        const std::lock_guard lock(mutex_);
+        ++waiting_;
+        changed_.notify_all();
+    }
     void open() {
         const std::lock_guard lock(mutex_);
         open_ = true;
@@ -114,6 +120,7 @@ private:
         hooks.admit = [](Request& request) {
             request.answer_headers.emplace_back("X-Admitted", "yes");
             if (request.header("authorization") == "no") api::refuse("key_missing", "no key");
+            request.principal = request.header("x-who");
         };
         hooks.origin_headers = [](std::string_view origin) {
             return std::vector<std::pair<std::string, std::string>>{
@@ -174,6 +181,14 @@ private:
              [this](const Request&) {
                  turnstile.pass();
                  return text_response("waited");
+             }},
+            {"GET", "/until-gone",
+             [this](const Request& request) {
+                 turnstile.count();
+                 while (!request.is_client_gone())
+                     std::this_thread::sleep_for(std::chrono::milliseconds(5));
+                 turnstile.count();
+                 return text_response("nobody reads this");
              }},
             {"GET", "/seat",
              [this](const Request& request) {

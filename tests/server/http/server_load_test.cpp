@@ -5,13 +5,17 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include "server/http/connection_gate.h"
+#include "tests/helpers/eventually.h"
 #include "tests/server/http/running_server.h"
 
 using namespace lastflat::http;
+using lastflat::test::eventually;
 using std::chrono::milliseconds;
 
 namespace {
@@ -35,6 +39,11 @@ std::vector<int> listeners(int port) {
 
 milliseconds since(Clock::time_point start) {
     return std::chrono::duration_cast<milliseconds>(Clock::now() - start);
+}
+
+/// A header that names the client.
+std::string from(const std::string& who) {
+    return "X-Who: " + who + "\r\n";
 }
 
 std::string healthz(int port) {
@@ -72,9 +81,9 @@ TEST_SUITE("server/http/server under load") {
         };
         for (int i = 0; i < 200; ++i) connect("");
         connect("GET /echo HTTP/1.1\r\nHos");
-        for (int i = 0; i < 3; ++i) connect(get("/wait"));
+        for (const char* who : {"a", "b", "c"}) connect(get("/wait", from(who)));
         REQUIRE(server.turnstile.wait_for(3));
-        for (int i = 0; i < 2; ++i) connect(get("/wait"));
+        for (const char* who : {"a", "b"}) connect(get("/wait", from(who)));
 
         const auto start = Clock::now();
         CHECK(body_of(healthz(server.port())) == "ok");
@@ -89,6 +98,63 @@ TEST_SUITE("server/http/server under load") {
         for (std::size_t i = 201; i < clients.size(); ++i) {
             CHECK(body_of(clients[i]->receive()) == "waited");
         }
+    }
+
+    TEST_CASE("one client has half of the places, however much it asks, and others are served") {
+        ServerLimits limits;
+        limits.connections = 4;
+        limits.queued_requests = 8;
+        RunningServer server(limits);
+        std::atomic<int> refused{0}, served{0};
+        std::vector<std::thread> clients;
+        const auto ask_as = [&](const char* who) {
+            clients.emplace_back([&, who] {
+                const std::string body = body_of(ask(server.port(), get("/wait", from(who))));
+                if (body == "client_busy") ++refused;
+                if (body == "waited") ++served;
+            });
+        };
+        for (int i = 0; i < 7; ++i) ask_as("a");  // two are served, four wait
+        CHECK(server.turnstile.wait_for(2));
+        CHECK(eventually([&] { return refused == 1; }));
+        CHECK(server.turnstile.waiting() == 2);
+        CHECK(status_of(ask(server.port(), get("/echo", from("b")))) == 200);
+        ask_as("b");
+        CHECK(server.turnstile.wait_for(3));
+        CHECK(status_of(ask(server.port(), get("/echo", from("c")))) == 200);
+        CHECK(status_of(ask(server.port(), get("/echo"))) == 200);  // by its address
+        server.turnstile.open();
+        for (std::thread& client : clients) client.join();
+        CHECK(served == 7);
+        CHECK(refused == 1);
+    }
+
+    TEST_CASE("one address without a name has half of the places") {
+        ServerLimits limits;
+        limits.connections = 2;
+        limits.trusted_proxies = {"127.0.0.1"};
+        RunningServer server(limits);
+        RawClient first(server.port()), second(server.port());
+        first.send(get("/wait", "X-Forwarded-For: 198.51.100.7\r\n"));
+        REQUIRE(server.turnstile.wait_for(1));
+        second.send(get("/wait", "X-Forwarded-For: 203.0.113.9, 198.51.100.7\r\n"));
+        const std::string other =
+            ask(server.port(), get("/echo", "X-Forwarded-For: 198.51.100.8\r\n"));
+        CHECK(body_of(other) == "GET /echo 198.51.100.8");
+        CHECK(server.turnstile.waiting() == 1);
+        server.turnstile.open();
+        CHECK(body_of(first.receive()) == "waited");
+        CHECK(body_of(second.receive()) == "waited");
+    }
+
+    TEST_CASE("a handler learns that its client has hung up") {
+        RunningServer server;
+        {
+            RawClient client(server.port());
+            client.send(get("/until-gone"));
+            REQUIRE(server.turnstile.wait_for(1));
+        }
+        CHECK(server.turnstile.wait_for(2));
     }
 
     TEST_CASE("the connection that has waited longest makes room") {
@@ -132,16 +198,33 @@ TEST_SUITE("server/http/server under load") {
         CHECK(since(start) < milliseconds(5000));
     }
 
-    TEST_CASE("a body must come at a minimum rate") {
+    TEST_CASE("a body must come at a minimum rate, whatever came before") {
         ServerLimits limits;
         limits.body_time = milliseconds(60'000);
-        limits.slow_body_grace = milliseconds(150);
-        limits.body_bytes_per_second = 1000;
+        limits.rate_window = milliseconds(300);
+        limits.least_bytes_per_second = 1000;
         RunningServer server(limits);
+        for (const std::size_t burst : {20u, 2'000'000u}) {
+            const auto start = Clock::now();
+            CHECK(status_of(ask(server.port(), post("Content-Length: 3000000\r\n",
+                                                    std::string(burst, 'x')))) == 408);
+            CHECK(since(start) >= milliseconds(290));
+            CHECK(since(start) < milliseconds(5000));
+        }
+    }
+
+    TEST_CASE("an answer must be read at a minimum rate, whatever was read before") {
+        ServerLimits limits;
+        limits.write_time = milliseconds(60'000);
+        limits.rate_window = milliseconds(300);
+        limits.least_bytes_per_second = 100'000;
+        limits.connections = 1;
+        RunningServer server(limits);
+        RawClient lazy(server.port());
+        lazy.send(get("/huge"));
+        REQUIRE(lazy.receive_until("200 OK") != "");
         const auto start = Clock::now();
-        CHECK(status_of(ask(server.port(),
-                            post("Content-Length: 500\r\n", std::string(200, 'x')))) == 408);
-        CHECK(since(start) >= milliseconds(340));
+        CHECK(status_of(ask(server.port(), get("/echo"))) == 200);
         CHECK(since(start) < milliseconds(5000));
     }
 
