@@ -7,6 +7,7 @@
 
 #include "api/timestamp.h"
 #include "server/storage/blob_folder.h"
+#include "server/storage/data_directory.h"
 #include "server/storage/sqlite_accounts.h"
 #include "server/storage/sqlite_store.h"
 
@@ -21,7 +22,7 @@ fs::path database_of(const std::string& data) {
 
 /// A command that looks must not make what it is to look at.
 void require_data(const std::string& data) {
-    if (!fs::exists(database_of(data)))
+    if (!fs::exists(sound_database(data)))
         throw StoreError(data + " holds no data of the service; name its folder with --data");
 }
 
@@ -104,8 +105,10 @@ private:
 int add_key_command(const std::string& data, const std::string& name) {
     umask(S_IRWXG | S_IRWXO);
     fs::create_directories(data);
-    SqliteDatabase database(database_of(data));
-    std::cout << SqliteKeys(database).add(name) << std::endl;
+    SqliteDatabase database(sound_database(data));
+    SqliteKeys keys(database);
+    mark_database(data, keys.secret("database"));
+    std::cout << keys.add(name) << std::endl;
     std::cerr << "Keep it: it is stored as a hash and cannot be shown again.\n";
     return 0;
 }

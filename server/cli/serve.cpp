@@ -173,11 +173,18 @@ private:
         return with_pages;
     }
 
+    /// Nothing is changed if the database is not as it should be.
+    [[nodiscard]] std::size_t recovered() {
+        database_.require_sound();
+        mark_database(data_.folder(), keys_.secret("database"));
+        return recover(jobs_, blobs_);
+    }
+
     const Settings settings_;
     std::atomic<bool> draining_{false};
     const DataDirectory data_{settings_.data};
     Metrics metrics_;
-    SqliteDatabase database_{data_.database(), sqlite_clock(metrics_)};
+    SqliteDatabase database_{sound_database(data_.folder()), sqlite_clock(metrics_)};
     const BlobFolder blobs_{data_.blobs()};
     SqliteStore jobs_{database_, {settings_.result_ms, settings_.job_ms}};
     SqliteAssets assets_{database_};
@@ -185,7 +192,7 @@ private:
     SqliteWebhooks webhooks_{database_};
     JobWatch watch_;
     Estimate estimate_;
-    const std::size_t recovered_jobs_ = recover(jobs_, blobs_);  ///< before any runner begins
+    const std::size_t recovered_jobs_ = recovered();  ///< before any runner begins
     const ProcessLimits limits_ = process_limits(settings_);
     RunnerPool runners_{jobs_,
                         blobs_,
@@ -209,8 +216,15 @@ private:
         seats_, run_tasks_in_workers(limits_, data_.work(), [this] { return watch_.is_closed(); })};
     const JobView view_{watch_, estimate_, settings_.workers};
     const JobWait wait_{jobs_, watch_, seats_, view_};
-    const AdminServices admin_services_{jobs_, metrics_, draining_, settings_.workers,
-                                        [this] { return runners_.busy(); }};
+    const AdminServices admin_services_{jobs_,
+                                        metrics_,
+                                        draining_,
+                                        settings_.workers,
+                                        [this] { return runners_.busy(); },
+                                        [this] {
+                                            database_.check();
+                                            blobs_.check();
+                                        }};
     Access access_{keys_, {settings_.rate, settings_.allowed_origins, settings_.listen.host}};
     std::optional<Listener> main_, admin_;
 };

@@ -22,6 +22,7 @@ http::Response health(const AdminServices& service) {
 }
 
 http::Response readiness(const AdminServices& service) {
+    service.check_storage();
     const JobCounts counts = service.jobs.counts();
     if (service.draining) api::refuse("draining", "the service is ending");
     return json_response(

@@ -17,6 +17,7 @@ struct AdminServices {
     const std::atomic<bool>& draining;
     std::size_t workers = 1;
     std::function<std::size_t()> busy_workers;
+    std::function<void()> check_storage;  ///< writes and reads; throws StoreError
 };
 
 /// GET /healthz: answered even when every connection is taken.

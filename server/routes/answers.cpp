@@ -56,9 +56,11 @@ http::Response empty_response(int status) {
 
 api::Refusal refusal_to(const http::Request& request, const std::exception_ptr& thrown) {
     api::Refusal refusal = api::refusal_of(thrown);
-    if (!(refusal.problem().code == "internal_error") && !is_out_of_memory(thrown)) return refusal;
-    log_event("request_failed",
-              {{"request", request.id}, {"path", request.path}, {"why", refusal.what()}});
+    const bool is_internal = refusal.problem().code == "internal_error" || is_out_of_memory(thrown);
+    if (is_internal || refusal.problem().status >= 500)
+        log_event(is_internal ? "request_failed" : "request_refused",
+                  {{"request", request.id}, {"path", request.path}, {"why", refusal.what()}});
+    if (!is_internal) return refusal;
     return {"internal_error", "The server failed to answer. The fault is not in the request."};
 }
 

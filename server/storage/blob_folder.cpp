@@ -76,8 +76,13 @@ void BlobFolder::adopt(const fs::path& file, const std::string& digest) const {
     sync_folder(path.parent_path());
 }
 
+File BlobFolder::open(const std::string& digest) const {
+    if (!identity_of(path_of(digest))) throw CorruptBlob("the blob " + digest + " is gone");
+    return File(path_of(digest), O_RDONLY);
+}
+
 std::string BlobFolder::read(const std::string& digest) const {
-    const File file(path_of(digest), O_RDONLY);
+    const File file = open(digest);
     std::string bytes = file.read(0, file.size());
     if (sha256(bytes) != digest) throw CorruptBlob("the blob " + digest + " has other bytes");
     return bytes;
@@ -85,7 +90,16 @@ std::string BlobFolder::read(const std::string& digest) const {
 
 std::string BlobFolder::read(const std::string& digest, std::size_t offset,
                              std::size_t size) const {
-    return File(path_of(digest), O_RDONLY).read(offset, size);
+    const File file = open(digest);
+    if (file.size() < offset + size) throw CorruptBlob("the blob " + digest + " is cut");
+    return file.read(offset, size);
+}
+
+void BlobFolder::check() const {
+    const fs::path path = folder_ / "00" / ".check";
+    write_durably(path, "a check");
+    (void)File(path, O_RDONLY).read(0, 7);
+    ::unlink(path.c_str());
 }
 
 bool BlobFolder::remove(const std::string& digest) const {

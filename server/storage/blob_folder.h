@@ -2,6 +2,7 @@
 #pragma once
 
 #include "server/jobs/blob_store.h"
+#include "server/support/files.h"
 
 namespace lastflat::server {
 
@@ -23,10 +24,14 @@ public:
     [[nodiscard]] std::vector<std::string> all() const override;
     [[nodiscard]] std::uintmax_t bytes() const override;
     [[nodiscard]] std::uintmax_t free_bytes() const override;
+    /// Writes and reads. Throws: StoreError if either cannot be done.
+    void check() const;
 
 private:
     void remove_unfinished() const;
     bool remove(const std::string& digest) const override;
+    /// Throws: CorruptBlob if it is gone; StoreError.
+    [[nodiscard]] File open(const std::string& digest) const;
     [[nodiscard]] bool holds(const std::filesystem::path& path, std::string_view bytes) const;
 
     const std::filesystem::path folder_;

@@ -7,6 +7,48 @@ namespace lastflat::server {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr char what_to_do[] =
+    "put it back from a backup, or name an empty folder with --data to begin anew";
+
+fs::path mark_of(const fs::path& folder) {
+    return folder / "database";
+}
+
+bool has_blobs(const fs::path& folder) {
+    std::error_code none;
+    for (const auto& group : fs::directory_iterator(folder / "blobs", none)) {
+        if (fs::directory_iterator(group, none) != fs::directory_iterator()) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+fs::path sound_database(const fs::path& folder) {
+    const fs::path file = folder / "jobs.sqlite";
+    std::error_code none;
+    const auto bytes = fs::file_size(file, none);
+    const bool is_lost = none || bytes == 0;
+    if (is_lost && (fs::exists(mark_of(folder), none) || has_blobs(folder))) {
+        throw StoreError("the database " + file.string() +
+                         " is missing or empty, though one was made here; " + what_to_do);
+    }
+    return file;
+}
+
+void mark_database(const fs::path& folder, const std::string& id) {
+    const fs::path mark = mark_of(folder);
+    std::error_code none;
+    if (!fs::exists(mark, none)) return write_durably(mark, id);
+    const File file(mark, O_RDONLY);
+    if (file.read(0, file.size()) != id) {
+        throw StoreError("the database in " + folder.string() +
+                         " is not the one that was made here; " + what_to_do);
+    }
+}
+
 DataDirectory::DataDirectory(const fs::path& folder) : folder_(fs::absolute(folder)) {
     std::error_code error;
     const bool made = fs::create_directories(folder_, error);

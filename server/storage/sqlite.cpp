@@ -1,5 +1,6 @@
 #include "server/storage/sqlite.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "server/storage/sqlite_schema.h"
@@ -35,9 +36,38 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& file, SqliteClock cl
     try {
         writer_ = std::make_unique<SqliteConnection>(file, false);
         migrate(writer_->database());
+        identity_ = identity_of(file);
     } catch (const SQLite::Exception& error) {
-        throw StoreError("cannot use " + file.string() + ": " + error.what());
+        throw StoreError("cannot use " + file.string() + ": " + error.what() +
+                         "; if it is damaged, put it back from a backup");
     }
+}
+
+void SqliteDatabase::require_file() const {
+    if (identity_ && identity_of(file_) == identity_) return;
+    throw StoreError("the database " + file_.string() +
+                     " was removed or replaced while it is in use; stop the service and put it "
+                     "back from a backup");
+}
+
+void SqliteDatabase::require_sound() {
+    std::string verdict = read([](SqliteConnection& connection) {
+        return connection.database().execAndGet("PRAGMA quick_check(1)").getString();
+    });
+    std::replace(verdict.begin(), verdict.end(), '\n', ' ');
+    if (verdict != "ok")
+        throw StoreError("the database " + file_.string() + " is damaged (" + verdict +
+                         "); put it back from a backup");
+}
+
+void SqliteDatabase::check() {
+    write([](SqliteConnection& connection) {
+        Query(connection.prepared("UPDATE secrets SET value = value")).run();
+    });
+    read([](SqliteConnection& connection) {
+        Query query(connection.prepared("SELECT count(*) FROM secrets"));
+        return query.next();
+    });
 }
 
 double SqliteDatabase::seconds() {

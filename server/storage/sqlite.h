@@ -94,11 +94,17 @@ public:
     /// Throws: StoreError, also if a newer version of the program made the file.
     explicit SqliteDatabase(const std::filesystem::path& file, SqliteClock clock = {});
 
+    /// Throws: StoreError if a page of the file is damaged.
+    void require_sound();
+    /// Writes and reads. Throws: StoreError if either cannot be done.
+    void check();
+
     /// Runs `work(connection)` in a transaction that is on the disk at the end, or did not happen.
     template <class Work>
     auto write(Work work) {
         return timed(true, [&] {
             const std::scoped_lock lock(writing_);
+            require_file();
             SQLite::Transaction transaction(writer_->database(),
                                             SQLite::TransactionBehavior::IMMEDIATE);
             if constexpr (std::is_void_v<decltype(work(*writer_))>) {
@@ -138,11 +144,14 @@ private:
             throw StoreError(std::string("the database failed: ") + error.what());
         }
     }
+    /// What is written to a file without a name is lost.
+    void require_file() const;
     [[nodiscard]] static double seconds();
     [[nodiscard]] std::unique_ptr<SqliteConnection> borrow();
     void give_back(std::unique_ptr<SqliteConnection> connection);
 
     const std::filesystem::path file_;
+    FileIdentity identity_;  ///< of the file that is open
     const SqliteClock clock_;
     std::mutex writing_;
     std::unique_ptr<SqliteConnection> writer_;

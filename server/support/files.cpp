@@ -55,6 +55,12 @@ std::string File::read(std::size_t offset, std::size_t size) const {
     return bytes;
 }
 
+FileIdentity identity_of(const fs::path& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+    return std::pair(std::uint64_t{status.st_dev}, std::uint64_t{status.st_ino});
+}
+
 void sync_folder(const fs::path& folder) {
     File(folder, O_RDONLY | O_DIRECTORY).sync();
 }

@@ -1,9 +1,12 @@
 // Files that are on the disk when a call returns.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "api/refusal.h"
 #include "server/support/descriptor.h"
@@ -40,6 +43,10 @@ private:
     const std::filesystem::path path_;
     const Descriptor descriptor_;
 };
+
+/// Which file a name stands for: device and inode; nothing: there is none.
+using FileIdentity = std::optional<std::pair<std::uint64_t, std::uint64_t>>;
+[[nodiscard]] FileIdentity identity_of(const std::filesystem::path& path);
 
 /// Makes a rename, a new name or a removal in the folder last.
 void sync_folder(const std::filesystem::path& folder);

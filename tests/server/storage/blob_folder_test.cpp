@@ -22,8 +22,8 @@ TEST_SUITE("server/storage/blob_folder") {
         CHECK(blobs.read(digest) == "a last");
         CHECK(blobs.read(digest, 2, 4) == "last");
         CHECK(blobs.bytes() == 6);
-        CHECK_THROWS_AS((void)blobs.read(digest, 2, 5), StoreError);
-        CHECK_THROWS_AS((void)blobs.read(sha256("another")), StoreError);
+        CHECK_THROWS_AS((void)blobs.read(digest, 2, 5), CorruptBlob);
+        CHECK_THROWS_AS((void)blobs.read(sha256("another")), CorruptBlob);
     }
 
     TEST_CASE("a blob that went bad is noticed, and mended when it comes again") {
@@ -65,7 +65,66 @@ TEST_SUITE("server/storage/blob_folder") {
     }
 }
 
+TEST_SUITE("server/storage/blob_folder") {
+    TEST_CASE("a blob that is gone or cut is corrupt, and no reason to ask again") {
+        const lastflat::test::TemporaryFolder folder;
+        const BlobFolder blobs(folder.path() / "blobs");
+        const std::string digest = blobs.put("a result");
+        std::filesystem::resize_file(blobs.path_of(digest), 3);
+        CHECK_THROWS_AS((void)blobs.read(digest), CorruptBlob);
+        CHECK_THROWS_AS((void)blobs.read(digest, 2, 4), CorruptBlob);
+        CHECK(blobs.read(digest, 0, 3) == "a r");
+        std::filesystem::remove(blobs.path_of(digest));
+        CHECK_THROWS_AS((void)blobs.read(digest), CorruptBlob);
+        CHECK_THROWS_AS((void)blobs.read(digest, 0, 1), CorruptBlob);
+    }
+
+    TEST_CASE("a folder that takes nothing says so when it is checked") {
+        const lastflat::test::TemporaryFolder folder;
+        const BlobFolder blobs(folder.path() / "blobs");
+        CHECK_NOTHROW(blobs.check());
+        CHECK(blobs.all().empty());
+        std::filesystem::remove_all(folder.path() / "blobs" / "00");
+        CHECK_THROWS_AS(blobs.check(), StoreError);
+    }
+}
+
 TEST_SUITE("server/storage/data_directory") {
+    TEST_CASE("a lost database is not taken for a new one") {
+        const lastflat::test::TemporaryFolder folder;
+        const auto file = folder.path() / "jobs.sqlite";
+        CHECK(sound_database(folder.path()) == file);  // nothing was here
+        { SqliteDatabase database(file); }
+        mark_database(folder.path(), "its id");
+        mark_database(folder.path(), "its id");
+        CHECK_THROWS_AS(mark_database(folder.path(), "another"), StoreError);
+        CHECK(sound_database(folder.path()) == file);
+        std::filesystem::resize_file(file, 0);
+        CHECK_THROWS_AS((void)sound_database(folder.path()), StoreError);
+        std::filesystem::remove(file);
+        CHECK_THROWS_AS((void)sound_database(folder.path()), StoreError);
+        std::filesystem::remove(folder.path() / "database");
+        CHECK_NOTHROW((void)sound_database(folder.path()));
+        (void)BlobFolder(folder.path() / "blobs").put("a model");
+        CHECK_THROWS_AS((void)sound_database(folder.path()), StoreError);
+    }
+
+    TEST_CASE("a database that is removed or replaced while it is open takes nothing more") {
+        const lastflat::test::TemporaryFolder folder;
+        const auto file = folder.path() / "jobs.sqlite";
+        SqliteDatabase database(file);
+        (void)SqliteKeys(database).secret("database");
+        CHECK_NOTHROW(database.check());
+        const auto elsewhere = folder.path() / "elsewhere";
+        std::filesystem::rename(file, elsewhere);
+        CHECK_THROWS_AS(database.check(), StoreError);
+        CHECK_THROWS_AS((void)SqliteKeys(database).add("key"), StoreError);
+        std::filesystem::copy_file(elsewhere, file);
+        CHECK_THROWS_AS(database.check(), StoreError);
+        std::filesystem::rename(elsewhere, file);
+        CHECK_NOTHROW(database.check());
+    }
+
     TEST_CASE("the folder is made, and held by one at a time") {
         const lastflat::test::TemporaryFolder folder;
         const auto path = folder.path() / "data";
