@@ -115,6 +115,10 @@ CLI::App* add_serve(CLI::App& app, Arguments& a) {
         ->check(CLI::Range(1, 100000));
     options.add("assets-per-key-mb", s.assets_per_key_mb, "Assets of one API key, MiB")
         ->check(CLI::Range(1, 1 << 24));
+    options
+        .add("storage-per-key-mb", s.storage_per_key_mb,
+             "Models, results and assets of one API key together, MiB")
+        ->check(CLI::Range(1, 1 << 24));
     options.add("min-free-mb", s.min_free_mb, "Room on the disk below which nothing is taken, MiB")
         ->check(CLI::Range(0, 1 << 24));
     options.add("rate", s.rate, "Requests of one API key in a minute; 0: any number");

@@ -153,8 +153,8 @@ private:
         add(job_routes({jobs_, control_, view_, wait_}));
         add(result_routes({jobs_, blobs_, tasks_}));
         add({event_route({jobs_, blobs_, watch_, view_, seats_})});
-        add(asset_routes(
-            {assets_, blobs_, jobs_, settings_.assets_per_key_mb, settings_.min_free_mb}));
+        add(asset_routes({assets_, blobs_, jobs_, settings_.assets_per_key_mb,
+                          settings_.storage_per_key_mb, settings_.min_free_mb}));
         add({validate_route({assets_, blobs_, tasks_, draining_})});
         add(batch_routes({intake_, jobs_, view_}));
         add(webhook_routes(webhooks_, settings_.webhooks != WebhookTargets::none));
@@ -205,7 +205,8 @@ private:
                       assets_,
                       blobs_,
                       runners_,
-                      {{settings_.queue, settings_.queue_per_key},
+                      {{settings_.queue, settings_.queue_per_key,
+                        std::uint64_t{settings_.storage_per_key_mb} << 20},
                        settings_.min_free_mb,
                        settings_.webhooks != WebhookTargets::none},
                       draining_};

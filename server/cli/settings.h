@@ -20,16 +20,17 @@ struct Settings {
     Address listen{"127.0.0.1", 8080};
     std::optional<Address> admin;  ///< of health, readiness and metrics
     std::string data = "lastflat-data";
-    std::size_t workers = 0;               ///< 0: one for each core
-    std::size_t queue = 256;               ///< jobs waiting
-    std::size_t queue_per_key = 64;        ///< of one API key
-    std::size_t assets_per_key_mb = 4096;  ///< models that one API key may leave here
-    std::size_t min_free_mb = 512;         ///< of the disk; with less, no new work is taken
-    std::size_t max_body_mb = 256;         ///< of one request
-    std::size_t connections = 64;          ///< served at once
-    std::size_t streams = 64;              ///< long polls and event streams at once
-    std::size_t rate = 6000;               ///< requests of one key in a minute; 0: any number
-    int job_memory_mb = 4096;              ///< of one job; 0: no limit
+    std::size_t workers = 0;                 ///< 0: one for each core
+    std::size_t queue = 256;                 ///< jobs waiting
+    std::size_t queue_per_key = 64;          ///< of one API key
+    std::size_t assets_per_key_mb = 4096;    ///< models that one API key may leave here
+    std::size_t storage_per_key_mb = 16384;  ///< models, results and assets of one API key
+    std::size_t min_free_mb = 512;           ///< of the disk; with less, no new work is taken
+    std::size_t max_body_mb = 256;           ///< of one request
+    std::size_t connections = 64;            ///< served at once
+    std::size_t streams = 64;                ///< long polls and event streams at once
+    std::size_t rate = 6000;                 ///< requests of one key in a minute; 0: any number
+    int job_memory_mb = 4096;                ///< of one job; 0: no limit
     std::int64_t job_time_ms = 300'000;
     std::int64_t lease_ms = 60'000;
     std::int64_t result_ms = 24 * 3600'000LL;   ///< how long a result is kept

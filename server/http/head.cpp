@@ -231,6 +231,12 @@ void find_route(Head& head, const RouteTable& routes, std::string_view raw_path)
     head.request.captures = std::move(match.captures);
     if (head.route) return;
     const std::string allowed = routes.allowed(raw_path);
+    if (allowed.empty() && routes.has_malformed_id(method, raw_path)) {
+        throw api::Refusal("id_malformed",
+                           "What stands in the path for an id is none: an id is 26 characters of "
+                           "0-9 and A-Z or a UUID in small letters, an asset's 64 hexadecimal "
+                           "digits.");
+    }
     if (allowed.empty()) {
         throw api::Refusal("not_found", "There is nothing at this path. See /openapi.json.");
     }

@@ -86,7 +86,7 @@ struct Response {
 using Handler = std::function<Response(const Request&)>;
 
 /// `pattern` matches the whole path; "{id}" stands for a ULID (26 characters of 0-9 and A-Z) or a
-/// UUID, "{digest}" for 64 hexadecimal digits.
+/// UUID, "{digest}" for 64 hexadecimal digits: a path with anything else there is refused (400).
 struct Route {
     std::string method;  ///< GET answers HEAD too
     std::string pattern;
@@ -94,6 +94,7 @@ struct Route {
     bool takes_body = false;  ///< without it a body is refused; only POST, PUT and PATCH can
     /// Answered even when all connections are taken. Must not block, and takes no body.
     bool express = false;
+    std::vector<std::string> parameters{};  ///< names that its query may have; others are refused
 };
 
 struct ServerLimits {

@@ -29,8 +29,11 @@ bool is_id(std::string_view text) {
     return true;
 }
 
+enum class Ids { good, any };
+
 /// What of the path's beginning the group takes; empty: it does not fit.
-std::string_view match_of(std::string_view group, std::string_view path) {
+std::string_view match_of(std::string_view group, std::string_view path, Ids ids) {
+    if (ids == Ids::any) return path.substr(0, path.find('/'));
     if (group == "{id}") {
         for (const std::size_t length : {36u, 26u}) {
             if (is_id(path.substr(0, length))) return path.substr(0, length);
@@ -42,8 +45,8 @@ std::string_view match_of(std::string_view group, std::string_view path) {
 }
 
 /// What the pattern's groups matched; nothing if the path is another one.
-std::optional<std::vector<std::string>> captures_of(std::string_view pattern,
-                                                    std::string_view path) {
+std::optional<std::vector<std::string>> captures_of(std::string_view pattern, std::string_view path,
+                                                    Ids ids = Ids::good) {
     std::vector<std::string> captures;
     while (!pattern.empty()) {
         const std::size_t group = std::min(pattern.find('{'), pattern.size());
@@ -52,7 +55,7 @@ std::optional<std::vector<std::string>> captures_of(std::string_view pattern,
         pattern.remove_prefix(group);
         if (pattern.empty()) break;
         const std::string_view name = pattern.substr(0, pattern.find('}') + 1);
-        const std::string_view value = match_of(name, path);
+        const std::string_view value = match_of(name, path, ids);
         if (value.empty()) return std::nullopt;
         captures.emplace_back(value);
         path.remove_prefix(value.size());
@@ -91,6 +94,14 @@ RouteMatch RouteTable::find(std::string_view method, std::string_view path) cons
         if (auto captures = captures_of(route.pattern, path)) return {&route, std::move(*captures)};
     }
     return {};
+}
+
+bool RouteTable::has_malformed_id(std::string_view method, std::string_view path) const {
+    const std::string_view wanted = method == "HEAD" ? "GET" : method;
+    return std::any_of(routes_.begin(), routes_.end(), [&](const Route& route) {
+        return (route.method == wanted || wanted == "OPTIONS") &&
+               captures_of(route.pattern, path, Ids::any).has_value();
+    });
 }
 
 std::string RouteTable::allowed(std::string_view path) const {

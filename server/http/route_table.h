@@ -25,6 +25,9 @@ public:
     /// finds GET's route.
     [[nodiscard]] RouteMatch find(std::string_view method, std::string_view path) const;
 
+    /// Whether a route of the method would have the path, but for an id in it that is none.
+    [[nodiscard]] bool has_malformed_id(std::string_view method, std::string_view path) const;
+
     /// The methods of the path as an Allow header; empty if no route has the path.
     [[nodiscard]] std::string allowed(std::string_view path) const;
 

@@ -37,6 +37,19 @@ std::vector<BodyPart> parts_of(const Head& head, std::string_view body, std::siz
     return parts;
 }
 
+/// A misspelt parameter would be ignored in silence.
+void check_query(const Head& head) {
+    const std::vector<std::string>& known = head.route->parameters;
+    for (const auto& [name, value] : head.request.query) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        std::string list;
+        for (const std::string& word : known) list += (list.empty() ? "" : ", ") + word;
+        throw api::Refusal("parameter_unknown",
+                           "unknown parameter '" + name.substr(0, 40) + "'; " +
+                               (list.empty() ? "this path has none" : "known are " + list));
+    }
+}
+
 }  // namespace
 
 class Server::Impl {
@@ -193,6 +206,7 @@ void Server::Impl::serve(VettedConnection connection, WaitingRoom& room) {
 Response Server::Impl::handle(Head& head, const HttpLibrary::ReadBody& read_body,
                               Buffer& body) const {
     try {
+        check_query(head);
         if (read_body) {
             body = read_body();
             head.request.body = parts_of(head, body.view(), limits_.body_parts);

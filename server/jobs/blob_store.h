@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <shared_mutex>
 #include <string>
@@ -30,8 +31,11 @@ public:
     /// While somebody holds one, nothing is removed: from `put` until the blob's name is in a row.
     [[nodiscard]] std::shared_lock<FairGate> pin() const { return std::shared_lock(removal_); }
 
-    /// Keeps the bytes and returns their digest; they are on the disk then.
-    virtual std::string put(std::string_view bytes) const = 0;
+    /// Keeps the bytes and returns their digest; they are on the disk then. They are written even
+    /// if they are there already, unless `is_own` says that whoever sends them has them here: the
+    /// time that it takes tells nobody what others have.
+    using IsOwn = std::function<bool(const std::string& digest)>;
+    virtual std::string put(std::string_view bytes, const IsOwn& is_own = {}) const = 0;
     /// Takes over a file that is already on the disk (same file system), under its digest. May be
     /// repeated after it failed. Throws: StoreError, also if there is neither file nor blob.
     virtual void adopt(const std::filesystem::path& file, const std::string& digest) const = 0;

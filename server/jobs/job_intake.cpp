@@ -43,6 +43,13 @@ void check_room(const BlobStore& blobs, std::size_t min_free_mb) {
             "make room, or delete jobs and assets that you do not need");
 }
 
+void refuse_storage(std::uint64_t bytes_of_owner) {
+    api::refuse("quota_exceeded",
+                "with this there would be more than " + std::to_string(bytes_of_owner >> 20) +
+                    " MiB of models, results and assets of this API key (the limit "
+                    "--storage-per-key-mb); delete jobs or assets, or wait until results expire");
+}
+
 void require_webhooks(bool webhooks) {
     if (!webhooks)
         api::refuse("webhooks_off",
@@ -69,6 +76,7 @@ void JobIntake::refuse_admission(Admission admission) const {
             api::refuse("key_queue_full",
                         "this API key has " + std::to_string(limits_.queue.queued_of_owner) +
                             " jobs waiting (the limit --queue-per-key); wait for some to end");
+        case Admission::storage_full: refuse_storage(limits_.queue.bytes_of_owner);
         case Admission::key_reused:
             api::refuse("key_reused",
                         "this Idempotency-Key belongs to another request; take a new key");
@@ -83,7 +91,9 @@ void JobIntake::refuse_admission(Admission admission) const {
 std::string JobIntake::digest_of_model(const Submission& submission, NewJob& job) {
     if (submission.asset.empty()) {
         job.model_bytes = submission.model.size();
-        return blobs_.put(submission.model);
+        return blobs_.put(submission.model, [&](const std::string& digest) {
+            return jobs_.has_blob(submission.owner, digest);
+        });
     }
     const auto asset = assets_.find(submission.owner, submission.asset);
     if (!asset)

@@ -53,6 +53,9 @@ struct IntakeLimits {
 /// StoreError.
 void check_room(const BlobStore& blobs, std::size_t min_free_mb);
 
+/// Throws: api::Refusal (507): the owner keeps as much as it may.
+[[noreturn]] void refuse_storage(std::uint64_t bytes_of_owner);
+
 /// Throws: api::Refusal (403) unless the service sends webhooks.
 void require_webhooks(bool webhooks);
 

@@ -27,7 +27,15 @@ struct Claim {
     std::optional<std::int64_t> cancel_at_ms;
 };
 
-enum class Admission { queued, queue_full, owner_queue_full, repeated, key_reused, id_taken };
+enum class Admission {
+    queued,
+    queue_full,
+    owner_queue_full,
+    storage_full,  ///< of the owner
+    repeated,
+    key_reused,
+    id_taken
+};
 
 struct Admitted {
     Admission admission = Admission::queued;
@@ -35,8 +43,9 @@ struct Admitted {
 };
 
 struct QueueLimits {
-    std::size_t queued = 256;          ///< jobs waiting
-    std::size_t queued_of_owner = 64;  ///< of one key
+    std::size_t queued = 256;                    ///< jobs waiting
+    std::size_t queued_of_owner = 64;            ///< of one key
+    std::uint64_t bytes_of_owner = 16ULL << 30;  ///< models, results and assets of one key
 };
 
 enum class Release {
@@ -129,6 +138,8 @@ public:
     [[nodiscard]] virtual Swept sweep(bool all_leases, const api::Problem& lost) = 0;
     /// Whether a job or an asset still needs the blob.
     [[nodiscard]] virtual bool needs_blob(const std::string& digest) = 0;
+    /// Whether one of the owner's own does.
+    [[nodiscard]] virtual bool has_blob(const std::string& owner, const std::string& digest) = 0;
 };
 
 }  // namespace lastflat::server

@@ -18,6 +18,12 @@ std::string to_json(const std::vector<ResultPart>& parts) {
     return json.dump();
 }
 
+std::uint64_t size_of(const std::vector<ResultPart>& parts) {
+    std::uint64_t size = 0;
+    for (const ResultPart& part : parts) size += part.size;
+    return size;
+}
+
 std::vector<ResultPart> result_parts_of(std::string_view text) {
     std::vector<ResultPart> parts;
     if (text.empty()) return parts;

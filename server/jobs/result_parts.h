@@ -13,6 +13,9 @@ namespace lastflat::server {
 /// The table of contents as JSON.
 [[nodiscard]] std::string to_json(const std::vector<ResultPart>& parts);
 
+/// Of all parts together.
+[[nodiscard]] std::uint64_t size_of(const std::vector<ResultPart>& parts);
+
 /// Empty text: no parts. Throws: nlohmann::json::exception.
 [[nodiscard]] std::vector<ResultPart> result_parts_of(std::string_view text);
 

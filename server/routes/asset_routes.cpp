@@ -55,15 +55,20 @@ Response add_asset(const AssetServices& service, const Request& request) {
     check_room(service.blobs, service.min_free_mb);
     AssetLimits limits;
     limits.bytes = service.assets_per_key_mb << 20;
+    limits.bytes_of_owner = service.storage_per_key_mb << 20;
     std::string digest;
     AssetAdmission admission{};
     {
         const auto pin = service.blobs.pin();
-        digest = service.blobs.put(model->bytes);
+        digest = service.blobs.put(model->bytes, [&](const std::string& own) {
+            return service.jobs.has_blob(request.principal, own);
+        });
         admission = service.assets.add(request.principal, digest, model->bytes.size(), limits);
     }
+    const bool is_kept = admission == AssetAdmission::added || admission == AssetAdmission::known;
+    if (!is_kept) drop_unneeded(service.blobs, service.jobs, {digest});
+    if (admission == AssetAdmission::storage_full) refuse_storage(limits.bytes_of_owner);
     if (admission == AssetAdmission::full) {
-        drop_unneeded(service.blobs, service.jobs, {digest});
         api::refuse("assets_full",
                     "with this asset there would be more than " +
                         std::to_string(service.assets_per_key_mb) + " MiB or " +

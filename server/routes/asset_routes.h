@@ -13,7 +13,7 @@ struct AssetServices {
     AssetStore& assets;
     const BlobStore& blobs;
     JobStore& jobs;
-    std::size_t assets_per_key_mb = 4096;
+    std::size_t assets_per_key_mb = 4096, storage_per_key_mb = 16384;
     std::size_t min_free_mb = 512;  ///< of the disk
 };
 

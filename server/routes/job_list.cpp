@@ -69,10 +69,6 @@ JobFilter filter_of(const std::string& secret, const Request& request) {
             filter.limit = limit;
         } else if (name == "cursor") {
             filter.before = position_of(secret, request.principal, value);
-        } else {
-            api::refuse("parameter_unknown",
-                        "unknown parameter '" + name.substr(0, 40) +
-                            "'; known are state, tag, created_after, limit, cursor");
         }
     }
     return filter;
@@ -102,9 +98,14 @@ Response list_jobs(JobStore& store, const JobView& view, const std::string& secr
 }  // namespace
 
 http::Route job_list_route(JobStore& jobs, const JobView& view, const std::string& secret) {
-    return {"GET", "/v1/jobs", [&jobs, &view, secret](const Request& request) {
+    return {"GET",
+            "/v1/jobs",
+            [&jobs, &view, secret](const Request& request) {
                 return list_jobs(jobs, view, secret, request);
-            }};
+            },
+            false,
+            false,
+            {"state", "tag", "created_after", "limit", "cursor"}};
 }
 
 }  // namespace lastflat::server

@@ -84,10 +84,14 @@ Response map_points(const ResultServices& service, const Request& request) {
 
 std::vector<http::Route> result_routes(const ResultServices& service) {
     std::vector<http::Route> routes{
-        {"GET", "/v1/jobs/{id}/result",
+        {"GET",
+         "/v1/jobs/{id}/result",
          [service](const Request& request) {
              return result_as(service, request, negotiated_format(request));
-         }},
+         },
+         false,
+         false,
+         {"format"}},
         {"GET", "/v1/jobs/{id}/metrics",
          [service](const Request& request) {
              const JobRecord job = finished_job(service, request);

@@ -66,10 +66,18 @@ Response put_job(const SubmitServices& service, const Request& request) {
 }  // namespace
 
 std::vector<http::Route> submit_routes(const SubmitServices& service) {
-    return {{"POST", "/v1/jobs",
-             [service](const Request& request) { return post_job(service, request); }, true},
-            {"PUT", "/v1/jobs/{id}",
-             [service](const Request& request) { return put_job(service, request); }, true}};
+    return {{"POST",
+             "/v1/jobs",
+             [service](const Request& request) { return post_job(service, request); },
+             true,
+             false,
+             {"asset_id"}},
+            {"PUT",
+             "/v1/jobs/{id}",
+             [service](const Request& request) { return put_job(service, request); },
+             true,
+             false,
+             {"asset_id"}}};
 }
 
 }  // namespace lastflat::server

@@ -23,8 +23,12 @@ http::Response validate(const ValidateServices& service, const http::Request& re
 }  // namespace
 
 http::Route validate_route(const ValidateServices& service) {
-    return {"POST", "/v1/validate",
-            [service](const http::Request& request) { return validate(service, request); }, true};
+    return {"POST",
+            "/v1/validate",
+            [service](const http::Request& request) { return validate(service, request); },
+            true,
+            false,
+            {"asset_id"}};
 }
 
 }  // namespace lastflat::server

@@ -54,12 +54,12 @@ bool BlobFolder::holds(const fs::path& path, std::string_view bytes) const {
     return true;
 }
 
-std::string BlobFolder::put(std::string_view bytes) const {
+std::string BlobFolder::put(std::string_view bytes, const IsOwn& is_own) const {
     std::string digest = sha256(bytes);
     const fs::path path = path_of(digest);
     // Compared, not believed: a blob that went bad on the disk is mended here. One that is there
     // may have got its name a moment ago, by somebody who has not made it last yet.
-    if (holds(path, bytes))
+    if (is_own && is_own(digest) && holds(path, bytes))
         sync_folder(path.parent_path());
     else
         write_durably(path, bytes);

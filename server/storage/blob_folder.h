@@ -15,7 +15,7 @@ public:
     struct Looking {};
     BlobFolder(Looking, std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-    std::string put(std::string_view bytes) const override;
+    std::string put(std::string_view bytes, const IsOwn& is_own = {}) const override;
     void adopt(const std::filesystem::path& file, const std::string& digest) const override;
     [[nodiscard]] std::filesystem::path path_of(const std::string& digest) const override;
     [[nodiscard]] std::string read(const std::string& digest) const override;

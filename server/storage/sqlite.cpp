@@ -93,8 +93,15 @@ void SqliteDatabase::give_back(std::unique_ptr<SqliteConnection> connection) {
 }
 
 std::string SqliteDatabase::integrity() {
-    return read([](SqliteConnection& connection) {
-        return connection.database().execAndGet("PRAGMA integrity_check").getString();
+    return read([](SqliteConnection& connection) -> std::string {
+        std::string verdict =
+            connection.database().execAndGet("PRAGMA integrity_check").getString();
+        Query miscounted(connection.prepared(
+            "SELECT owner FROM usage u WHERE bytes <> "
+            "(SELECT coalesce(sum(bytes), 0) FROM kept WHERE owner = u.owner) LIMIT 1"));
+        if (verdict == "ok" && miscounted.next())
+            return "what the key '" + miscounted.text(0) + "' keeps is not what is noted";
+        return verdict;
     });
 }
 

@@ -1,5 +1,6 @@
 #include "server/storage/sqlite_accounts.h"
 
+#include "server/storage/sqlite_rows.h"
 #include "server/support/clock.h"
 #include "server/support/crypto.h"
 
@@ -22,6 +23,8 @@ AssetAdmission SqliteAssets::add(const std::string& owner, const std::string& di
             (static_cast<std::size_t>(used.number(0)) >= limits.count ||
              static_cast<std::uint64_t>(used.number(1)) + bytes > limits.bytes))
             return AssetAdmission::full;
+        if (!owner.empty() && bytes_kept(connection, owner) + bytes > limits.bytes_of_owner)
+            return AssetAdmission::storage_full;
         Query(connection.prepared("INSERT INTO assets VALUES (?, ?, ?, ?)"))
             .bind(owner, digest, bytes, now_ms())
             .run();

@@ -110,4 +110,14 @@ bool SqliteStore::needs_blob(const std::string& digest) {
     });
 }
 
+bool SqliteStore::has_blob(const std::string& owner, const std::string& digest) {
+    return database_.read([&](SqliteConnection& connection) {
+        Query query(connection.prepared(
+            "SELECT 1 FROM jobs WHERE model = ?1 AND owner = ?2 "
+            "AND state IN ('queued', 'running', 'canceling') "
+            "UNION ALL SELECT 1 FROM assets WHERE owner = ?2 AND digest = ?1 LIMIT 1"));
+        return query.bind(digest, owner).next();
+    });
+}
+
 }  // namespace lastflat::server

@@ -155,6 +155,11 @@ void change_state(SqliteConnection& connection, JobRow& row, JobState to,
     if (is_final(to)) tell_webhooks(connection, row);
 }
 
+std::uint64_t bytes_kept(SqliteConnection& connection, const std::string& owner) {
+    Query query(connection.prepared("SELECT bytes FROM usage WHERE owner = ?"));
+    return query.bind(owner).next() ? static_cast<std::uint64_t>(query.number(0)) : 0;
+}
+
 void erase_row(SqliteConnection& connection, const JobRow& row) {
     Query(connection.prepared("DELETE FROM changes WHERE seq = ?")).bind(row.seq).run();
     Query(connection.prepared("DELETE FROM idempotency WHERE owner = ? AND id = ?"))

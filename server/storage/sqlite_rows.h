@@ -53,6 +53,9 @@ void add_webhook(SqliteConnection& connection, const Webhook& webhook, const std
 /// Forgets its messages too.
 void erase_webhook(SqliteConnection& connection, const std::string& owner, const std::string& id);
 
+/// Bytes of the owner's models, results and assets together.
+[[nodiscard]] std::uint64_t bytes_kept(SqliteConnection& connection, const std::string& owner);
+
 /// Forgets the job's row and all that hangs on it.
 void erase_row(SqliteConnection& connection, const JobRow& row);
 

@@ -159,6 +159,7 @@ CREATE TABLE jobs_of_owners (
     error          TEXT NOT NULL DEFAULT '',
     result         TEXT NOT NULL DEFAULT '',
     parts          TEXT NOT NULL DEFAULT '',
+    result_bytes   INTEGER NOT NULL DEFAULT 0,
     retries        INTEGER NOT NULL DEFAULT 0,
     not_before_ms  INTEGER NOT NULL DEFAULT 0,
     request        TEXT NOT NULL,  -- last: it may be long, and what follows a long column is slow
@@ -166,7 +167,10 @@ CREATE TABLE jobs_of_owners (
 );
 INSERT INTO jobs_of_owners SELECT seq, id, owner, tag, batch, 1, state, reason, model, model_bytes,
     fingerprint, created_ms, started_ms, finished_ms, cancel_at_ms, attempt, lease_token,
-    lease_until_ms, revision, error, result, parts, retries, not_before_ms, request FROM jobs;
+    lease_until_ms, revision, error, result, parts,
+    CASE parts WHEN '' THEN 0
+        ELSE (SELECT coalesce(sum(json_extract(value, '$.size')), 0) FROM json_each(parts)) END,
+    retries, not_before_ms, request FROM jobs;
 INSERT OR REPLACE INTO sqlite_sequence (rowid, name, seq)
     SELECT (SELECT rowid FROM sqlite_sequence WHERE name = 'jobs_of_owners'), 'jobs_of_owners', seq
     FROM sqlite_sequence WHERE name = 'jobs';
@@ -250,6 +254,42 @@ CREATE TABLE silent_receivers (
     failures INTEGER NOT NULL,
     PRIMARY KEY (owner, receiver)
 ) WITHOUT ROWID;
+
+-- Bytes of an owner's models that are still needed, results and assets, each as often as it is used.
+CREATE TABLE usage (
+    owner TEXT NOT NULL PRIMARY KEY,
+    bytes INTEGER NOT NULL
+) WITHOUT ROWID;
+CREATE VIEW kept (owner, bytes) AS
+    SELECT owner, model_bytes FROM jobs WHERE state IN ('queued', 'running', 'canceling')
+    UNION ALL SELECT owner, result_bytes FROM jobs WHERE result <> ''
+    UNION ALL SELECT owner, bytes FROM assets;
+INSERT INTO usage SELECT owner, sum(bytes) FROM kept GROUP BY owner;
+CREATE TRIGGER job_added AFTER INSERT ON jobs BEGIN
+    INSERT INTO usage VALUES (new.owner, new.model_bytes)
+        ON CONFLICT (owner) DO UPDATE SET bytes = bytes + excluded.bytes;
+END;
+CREATE TRIGGER job_changed AFTER UPDATE OF state, result, result_bytes ON jobs BEGIN
+    UPDATE usage SET bytes = bytes
+        + CASE WHEN new.state IN ('queued', 'running', 'canceling') THEN new.model_bytes ELSE 0 END
+        - CASE WHEN old.state IN ('queued', 'running', 'canceling') THEN old.model_bytes ELSE 0 END
+        + CASE new.result WHEN '' THEN 0 ELSE new.result_bytes END
+        - CASE old.result WHEN '' THEN 0 ELSE old.result_bytes END
+        WHERE owner = new.owner;
+END;
+CREATE TRIGGER job_removed AFTER DELETE ON jobs BEGIN
+    UPDATE usage SET bytes = bytes
+        - CASE WHEN old.state IN ('queued', 'running', 'canceling') THEN old.model_bytes ELSE 0 END
+        - CASE old.result WHEN '' THEN 0 ELSE old.result_bytes END
+        WHERE owner = old.owner;
+END;
+CREATE TRIGGER asset_added AFTER INSERT ON assets BEGIN
+    INSERT INTO usage VALUES (new.owner, new.bytes)
+        ON CONFLICT (owner) DO UPDATE SET bytes = bytes + excluded.bytes;
+END;
+CREATE TRIGGER asset_removed AFTER DELETE ON assets BEGIN
+    UPDATE usage SET bytes = bytes - old.bytes WHERE owner = old.owner;
+END;
 
 -- When an owner was last served, as a number that grows with every turn.
 CREATE TABLE turns (

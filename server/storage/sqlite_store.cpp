@@ -164,6 +164,9 @@ Admitted SqliteStore::add(const NewJob& job, const QueueLimits& limits) {
                 limits.queued_of_owner)) {
             return {Admission::owner_queue_full, {}};
         }
+        if (!job.owner.empty() &&
+            bytes_kept(connection, job.owner) + job.model_bytes > limits.bytes_of_owner)
+            return {Admission::storage_full, {}};
         insert(connection, job);
         return {Admission::queued, job.id};
     });
@@ -230,8 +233,9 @@ std::optional<JobState> SqliteStore::finish(const Lease& lease, const JobEnd& en
         } else {
             const auto& [result, parts] = std::get<Succeeded>(end);
             change_state(connection, *row, JobState::succeeded);
-            Query(connection.prepared("UPDATE jobs SET result = ?, parts = ? WHERE seq = ?"))
-                .bind(result, to_json(parts), row->seq)
+            Query(connection.prepared(
+                      "UPDATE jobs SET result = ?, parts = ?, result_bytes = ? WHERE seq = ?"))
+                .bind(result, to_json(parts), size_of(parts), row->seq)
                 .run();
         }
         return row->state;

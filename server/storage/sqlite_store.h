@@ -29,6 +29,7 @@ public:
                                                                  const std::string& id) override;
     [[nodiscard]] Swept sweep(bool all_leases, const api::Problem& lost) override;
     [[nodiscard]] bool needs_blob(const std::string& digest) override;
+    [[nodiscard]] bool has_blob(const std::string& owner, const std::string& digest) override;
 
 private:
     SqliteDatabase& database_;

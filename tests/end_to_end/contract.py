@@ -59,12 +59,15 @@ def walk_http(walk):
     walk.expect(403, "origin_refused", "POST", "/v1/jobs", headers=["Origin: https://evil.example"], body=b"v 0 0 0")
     walk.expect(403, "origin_refused", "GET", "/v1/jobs", headers=["Sec-Fetch-Site: cross-site"])
     walk.expect(200, None, "GET", "/docs", headers=["Sec-Fetch-Site: cross-site", "Sec-Fetch-Mode: navigate"])
-    for path in ("/", "/v1", "/v1/jobs/", "/v1/jobs/short"):
+    for path in ("/", "/v1", "/v1/jobs/", "/v1/jobs/0123456789ABCDEFGHJKMNPQRS/results"):
         walk.expect(404, "not_found", "GET", path)
     for method, path, _ in walk.contract.operations():
+        with_body = method != "HEAD"
         if "{" in path:
-            walk.ask(method, path, id="short" if "{id}" in path else "z" * 64)
+            walk.expect(400, "id_malformed" if with_body else None, method, path, id="short" if "{id}" in path else "z" * 64)
             walk.ask(method, path)
+        if method != "OPTIONS":
+            walk.expect(400, "parameter_unknown" if with_body else None, method, path, query="?pretty=1")
         if method in ("POST", "PUT"):
             walk.ask(method, path, headers=["Content-Encoding: gzip"], body=b"x")
     return waiting

@@ -75,10 +75,11 @@ class Contract:
             if response is None:
                 return self.complain(where, f"this status is not declared: {body[:200]!r}")
         else:
-            name = "MethodNotAllowed" if item else "NotFound"
+            like = any(re.fullmatch(re.sub(r"\{.*?\}", "[^/]+", known), path) for known in self.document["paths"])
+            name, wanted = ("MethodNotAllowed", 405) if item else ("BadRequest", 400) if like else ("NotFound", 404)
             response = {"$ref": "#/components/responses/" + name}
-            if status != (405 if item else 404):
-                return self.complain(where, "expected 405 for a method, 404 for a path that is not declared")
+            if status != wanted:
+                return self.complain(where, "expected 405 for a method, 400 for an id that is none, 404 for any other path")
         response = self.resolve(response)
         self.check_headers(where, response.get("headers", {}), headers)
         content = response.get("content")

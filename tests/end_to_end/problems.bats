@@ -143,9 +143,13 @@ GET /v1/jobs/$id/cancel POST, OPTIONS
 DELETE /healthz GET, HEAD, OPTIONS
 PATCH /openapi.json GET, HEAD, OPTIONS
 TABLE
-    for path in / /v1 /v1/job /v1/jobs/ /v1/jobs/short /v1/jobs/$id/results; do
+    for path in / /v1 /v1/job /v1/jobs/ /v1/jobs/$id/results; do
         ask "$url$path"
         assert_problem 404 not_found
+    done
+    for path in /v1/jobs/short /v1/jobs/short/result /v1/assets/short; do
+        ask "$url$path"
+        assert_problem 400 id_malformed
     done
     for path in "/v1/jobs/$id" "/v1/jobs/$id/result"; do
         ask "$url$path"

@@ -236,9 +236,9 @@ TEST_SUITE("server/http/head") {
             {get_of("/v1%2fjobs"), "404 not_found"},
             {get_of("/v1/job%73"), "404 not_found"},
             {get_of("/v1/jobs/" + some_id + "/"), "404 not_found"},
-            {get_of("/v1/jobs/" + some_id.substr(1)), "404 not_found"},
-            {get_of("/v1/jobs/" + some_id + "0"), "404 not_found"},
-            {get_of("/v1/jobs/01arz3ndektsv4rrffq69g5fav"), "404 not_found"},
+            {get_of("/v1/jobs/" + some_id.substr(1)), "400 id_malformed"},
+            {get_of("/v1/jobs/" + some_id + "0"), "400 id_malformed"},
+            {get_of("/v1/jobs/01arz3ndektsv4rrffq69g5fav"), "400 id_malformed"},
             {"PUT /v1/jobs HTTP/1.1\r\nHost: a\r\n\r\n", "405 method_not_allowed"},
             {"OPTIONS /nowhere HTTP/1.1\r\nHost: a\r\n\r\n", "404 not_found"},
         });

@@ -151,7 +151,7 @@ private:
         std::vector<Route> all = plain_routes();
         for (const char* method : {"GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS"}) {
             const bool takes_body = std::string_view(method).front() == 'P';
-            all.push_back({method, "/v1/..//{id}:any.", echo, takes_body});
+            all.push_back({method, "/v1/..//{id}:any.", echo, takes_body, false, {"a"}});
         }
         return all;
     }
@@ -159,7 +159,7 @@ private:
     std::vector<Route> plain_routes() {
         return {
             {"GET", "/healthz", [](const Request&) { return text_response("ok"); }, false, true},
-            {"GET", "/echo", echo},
+            {"GET", "/echo", echo, false, false, {"a"}},
             {"POST", "/echo", echo, true},
             {"GET", "/v1/jobs/{id}", echo},
             {"GET", "/headers", with_bad_headers},

@@ -32,6 +32,8 @@ TEST_SUITE("server/http/server") {
         const std::string length = std::to_string(form.size());
         const RequestRow rows[] = {
             {get("/echo?a=b"), 200, "GET /echo 127.0.0.1"},
+            {get("/echo?a=b&b=a"), 400, "parameter_unknown"},
+            {get("/large?a=b"), 400, "parameter_unknown"},
             {get("/echo", "REMOTE_ADDR: 9.9.9.9\r\n"), 200, "GET /echo 127.0.0.1"},
             {"GET /echo HTTP/1.0\r\n\r\n", 200, "GET /echo 127.0.0.1"},
             {post("Content-Length: 0\r\n", ""), 200, "POST /echo 127.0.0.1"},

@@ -10,7 +10,7 @@ namespace lastflat::server::test {
 
 class MemoryBlobs final : public BlobStore {
 public:
-    std::string put(std::string_view bytes) const override {
+    std::string put(std::string_view bytes, const IsOwn& = {}) const override {
         const std::string digest = sha256(bytes);
         blobs_[digest] = bytes;
         return digest;

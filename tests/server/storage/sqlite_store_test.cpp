@@ -6,6 +6,8 @@
 #include <set>
 #include <thread>
 
+#include "server/storage/sqlite_accounts.h"
+#include "server/storage/sqlite_rows.h"
 #include "server/storage/sqlite_schema.h"
 #include "server/support/clock.h"
 #include "tests/helpers/eventually.h"
@@ -230,6 +232,37 @@ TEST_SUITE("server/storage/sqlite_store") {
         CHECK(s.add(new_job("F", "other"), limits) == Admission::queued);
     }
 
+    TEST_CASE("an owner keeps so many bytes, of models, results and assets, and not more") {
+        TestStore s;
+        SqliteAssets assets(s.database);
+        QueueLimits limits;
+        limits.bytes_of_owner = 100;
+        const auto job_of = [](const char* id, std::uint64_t bytes) {
+            NewJob job = new_job(id, "key");
+            job.model_bytes = bytes;
+            return job;
+        };
+        AssetLimits asset_limits;
+        asset_limits.bytes_of_owner = 100;
+        CHECK(s.add(job_of("A", 60), limits) == Admission::queued);
+        CHECK(s.add(job_of("B", 41), limits) == Admission::storage_full);
+        CHECK(assets.add("key", "digest", 41, asset_limits) == AssetAdmission::storage_full);
+        CHECK(assets.add("key", "digest", 30, asset_limits) == AssetAdmission::added);
+        CHECK(s.add(job_of("B", 11), limits) == Admission::storage_full);
+        CHECK(s.add(new_job("B", "other"), limits) == Admission::queued);
+        Succeeded result = success();  // of 4 bytes
+        CHECK(s.store.finish(s.store.claim(long_lease)->lease, result));
+        CHECK(s.add(job_of("C", 67), limits) == Admission::storage_full);  // 30 + 4 + 67
+        CHECK(s.add(job_of("C", 66), limits) == Admission::queued);
+        CHECK(s.store.remove("key", "C"));
+        CHECK(assets.remove("key", "digest"));
+        SqliteStore strict(s.database, Retention{-1, 3600'000});
+        (void)strict.sweep(false, test::lost);
+        CHECK(s.add(job_of("D", 100), limits) == Admission::queued);
+        CHECK(s.store.cancel("key", "D"));
+        CHECK(s.add(job_of("E", 100), limits) == Admission::queued);
+    }
+
     TEST_CASE("the same key with the same job is a repetition, with another it is refused") {
         TestStore s;
         NewJob job = new_job("A");
@@ -374,6 +407,9 @@ INSERT INTO jobs (seq, id, owner, tag, batch, state, model, model_bytes, fingerp
     VALUES (5, 'A', 'key', 't', 'b', 'queued', 'm', 7, 'f', 1, '{}');
 INSERT INTO sqlite_sequence VALUES ('other', 3);
 UPDATE sqlite_sequence SET seq = 9 WHERE name = 'jobs';
+INSERT INTO jobs (seq, id, owner, tag, batch, state, model, model_bytes, fingerprint, created_ms, finished_ms, result, parts, request)
+    VALUES (6, 'R', 'key', '', '', 'succeeded', 'm', 7, 'f', 1, 2, 'blob', '[{"size": 20}, {"size": 3}]', '{}');
+INSERT INTO assets VALUES ('key', 'd', 100, 1);
 INSERT INTO changes VALUES (5, 1, 1, 'queued', 0);
 INSERT INTO idempotency VALUES ('key', 'once', 'f', 'A');
 INSERT INTO expired VALUES ('E', 'key', 1);
@@ -403,6 +439,9 @@ INSERT INTO deliveries (id, webhook, event, payload, created_ms, next_ms)
             return query.next() ? query.text(0) : "";
         });
         CHECK(receiver == "https://example.com:8443");
+        const auto bytes = database.read(
+            [](SqliteConnection& connection) { return bytes_kept(connection, "key"); });
+        CHECK(bytes == 7 + 20 + 3 + 100);
     }
 
     TEST_CASE("a database of a newer program is left alone") {
