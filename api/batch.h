@@ -1,10 +1,11 @@
-// Many jobs in one request.
+// Many jobs that are one thing.
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "api/job.h"
@@ -14,35 +15,52 @@ namespace lastflat::api {
 
 inline constexpr std::size_t most_batch_jobs = 200;
 
-/// The body of POST /v1/jobs:batch. Each job is read when its turn comes: one that is wrong is no
-/// reason to refuse the others, and their models are not all in memory at once.
+/// The body of POST /v1/jobs:batch. Each job is read when its turn comes: their models are not all
+/// in memory at once.
 class BatchRequest {
 public:
-    /// Throws: InvalidRequest naming the field.
+    /// Throws: InvalidRequest naming the field, also if there is no job.
     explicit BatchRequest(std::string_view text);
     [[nodiscard]] std::size_t size() const;
-    /// Throws: InvalidRequest; its pointer begins at this job.
+    /// Throws: InvalidRequest naming the field of this job.
     [[nodiscard]] JsonSubmission job(std::size_t index) const;
 
 private:
     nlohmann::json document_;
 };
 
-/// What became of each job, in their order.
 struct Batch {
-    struct Item {
-        int status;
-        std::variant<Job, Problem> outcome;
-    };
     std::string id;
-    std::vector<Item> items;
+    std::int64_t created_ms = 0;
+    std::optional<std::int64_t> finished_ms;
+    std::size_t size = 0;                    ///< jobs that were sent
+    std::map<JobState, std::size_t> states;  ///< how many of those that are left are in each
+    std::vector<Job> items;                  ///< those that are left, in their order
 };
 [[nodiscard]] std::string to_json(const Batch& batch);
 
-struct BatchState {
-    std::string id;
-    std::vector<Job> items;
+/// One row for every curve and piece of every job that has a result, one for every other job
+/// (RFC 4180). A text that a spreadsheet would take for a formula begins with an apostrophe.
+class BatchTable {
+public:
+    /// `metrics`: the job's, as JSON; empty: it has none.
+    void add(const Job& job, std::string_view metrics);
+    [[nodiscard]] const std::string& text() const { return text_; }
+
+private:
+    std::string text_ =
+        "job,tag,state,error,region,curve,locked,last_mm,flat_mm,flat_minus_last_mm,percent,"
+        "worst_edge_error_mm,verdict\r\n";
 };
-[[nodiscard]] std::string to_json(const BatchState& batch);
+
+/// Jobs of a batch without a result, and why.
+class BatchErrors {
+public:
+    void add(const Job& job, const Problem& problem);
+    [[nodiscard]] std::string json() const;
+
+private:
+    nlohmann::ordered_json items_ = nlohmann::ordered_json::array();
+};
 
 }  // namespace lastflat::api

@@ -45,6 +45,12 @@ Json json_of(const Job& job) {
     return json;
 }
 
+Json counts_json(const std::map<JobState, std::size_t>& states) {
+    Json json = Json::object();
+    for (const auto& [state, jobs] : states) json[std::string(word_of(job_states, state))] = jobs;
+    return json;
+}
+
 std::string to_json(const Job& job) {
     return text_of(json_of(job));
 }

@@ -1,6 +1,7 @@
 // Bodies as JSON values, for bodies that contain them. For the files of this folder alone.
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -16,6 +17,7 @@ namespace lastflat::api {
 
 struct Job;
 struct Problem;
+enum class JobState;
 
 using Json = nlohmann::ordered_json;
 
@@ -31,6 +33,8 @@ using Json = nlohmann::ordered_json;
     return {p.x(), p.y(), p.z()};
 }
 [[nodiscard]] Json json_of(const Job& job);
+/// How many jobs are in each state, by its word.
+[[nodiscard]] Json counts_json(const std::map<JobState, std::size_t>& states);
 [[nodiscard]] Json json_of(const Problem& problem);
 [[nodiscard]] Json json_of(const lastflat::Repair& repair);
 [[nodiscard]] Json json_of(const lastflat::Warning& warning);

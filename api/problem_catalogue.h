@@ -62,6 +62,7 @@ inline constexpr CataloguedProblem problem_catalogue[] = {
     {"id_taken", 409},
     {"asset_not_found", 404, 422},
     {"batch_not_found", 404},
+    {"archive_too_large", 413},
     {"model_repeated", 400},
     {"buffer_missing", 422},
     {"part_unused", 400},

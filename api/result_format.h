@@ -11,6 +11,11 @@ inline constexpr Word<ResultFormat> result_formats[] = {{"json", ResultFormat::j
                                                         {"svg", ResultFormat::svg},
                                                         {"glb", ResultFormat::glb},
                                                         {"obj", ResultFormat::obj}};
+/// Of files that hold them.
+inline constexpr Word<ResultFormat> result_file_names[] = {{"result.json", ResultFormat::json},
+                                                           {"pattern.svg", ResultFormat::svg},
+                                                           {"flat.glb", ResultFormat::glb},
+                                                           {"flat.obj", ResultFormat::obj}};
 /// The one that is preferred first.
 inline constexpr Word<ResultFormat> result_media_types[] = {
     {"application/json", ResultFormat::json},

@@ -11,7 +11,8 @@ JsonSubmission read_json_submission(const Field& field, const RequestLimits& lim
     JsonSubmission submission;
     const auto model = reader.find("model");
     if (!model) {
-        throw InvalidRequest("/model", "must be given: {\"data\": base64} or {\"asset_id\": id}");
+        throw InvalidRequest(field.pointer + "/model",
+                             "must be given: {\"data\": base64} or {\"asset_id\": id}");
     }
     ObjectReader inner(*model);
     const auto data = inner.find("data"), asset = inner.find("asset_id");
@@ -33,6 +34,8 @@ JsonSubmission read_json_submission(const Field& field, const RequestLimits& lim
     }
     if (const auto webhook = reader.find("webhook"))
         submission.webhook = read_webhook(*webhook, WebhookScope::job);
+    if (const auto priority = reader.find("priority"))
+        submission.priority = priority->choice(job_priorities);
     reader.finish();
     return submission;
 }

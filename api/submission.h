@@ -17,10 +17,12 @@ struct JsonSubmission {
     std::string asset_id;  ///< of a model that was sent before
     FlattenRequest request;
     std::string request_text;  ///< its JSON; empty if absent
+    std::optional<JobPriority> priority;
     std::optional<WebhookRequest> webhook;
 };
 
-/// Reads {"model": {"data": base64} or {"asset_id": id}, "request": {...}, "webhook": {...}}.
+/// Reads {"model": {"data": base64} or {"asset_id": id}, "request": {...}, "webhook": {...},
+/// "priority": ...}.
 /// Throws: InvalidRequest naming the field.
 [[nodiscard]] JsonSubmission read_json_submission(const Field& field,
                                                   const RequestLimits& limits = {});

@@ -23,17 +23,27 @@ std::string read_secret(const Field& field) {
     return secret;
 }
 
+/// Throws: std::logic_error of a state that is no end.
+WebhookEvent end_of(JobState state) {
+    switch (state) {
+        case JobState::succeeded: return WebhookEvent::job_succeeded;
+        case JobState::failed: return WebhookEvent::job_failed;
+        case JobState::canceled: return WebhookEvent::job_canceled;
+        default: throw std::logic_error("a job has not ended");
+    }
+}
+
 }  // namespace
 
-std::string event_names(const std::vector<JobState>& events) {
+std::string event_names(const std::vector<WebhookEvent>& events) {
     std::string names;
-    for (const JobState event : events)
+    for (const WebhookEvent event : events)
         names.append(names.empty() ? "" : " ").append(word_of(webhook_events, event));
     return names;
 }
 
-std::vector<JobState> named_events(std::string_view names) {
-    std::vector<JobState> events;
+std::vector<WebhookEvent> named_events(std::string_view names) {
+    std::vector<WebhookEvent> events;
     while (!names.empty()) {
         const std::size_t end = std::min(names.find(' '), names.size());
         if (const auto event = value_of(webhook_events, names.substr(0, end)))
@@ -59,10 +69,14 @@ WebhookRequest read_webhook(const Field& field, WebhookScope scope) {
     webhook.url = url->text(longest_url);
     if (events) {
         for (const Field& event : events->items(std::size(webhook_events)))
-            webhook.events.push_back(event.choice(webhook_events));
+            webhook.events.push_back(scope == WebhookScope::job ? event.choice(job_events)
+                                                                : event.choice(webhook_events));
     }
     if (webhook.events.empty()) {
-        for (const auto& event : webhook_events) webhook.events.push_back(event.value);
+        for (const auto& event : webhook_events) {
+            if (scope == WebhookScope::jobs || event.value != WebhookEvent::batch_finished)
+                webhook.events.push_back(event.value);
+        }
     }
     return webhook;
 }
@@ -74,7 +88,8 @@ WebhookRequest webhook_from_json(std::string_view text) {
 
 static Json json_of(const Webhook& webhook) {
     Json events = Json::array();
-    for (const JobState event : webhook.events) events.push_back(word_of(webhook_events, event));
+    for (const WebhookEvent event : webhook.events)
+        events.push_back(word_of(webhook_events, event));
     return {{"id", webhook.id},
             {"url", webhook.url},
             {"events", std::move(events)},
@@ -94,7 +109,12 @@ std::string to_json(const std::vector<Webhook>& webhooks) {
 static Json json_of(const JobEnded& job) {
     Json json{{"id", job.id}, {"state", word_of(job_states, job.state)}};
     if (!job.tag.empty()) json["tag"] = job.tag;
+    if (!job.batch.empty()) json["batch"] = job.batch;
     return json;
+}
+
+static Json json_of(const BatchFinished& batch) {
+    return {{"batch", batch.id}, {"states", counts_json(batch.states)}};
 }
 
 static Json json_of(const WebhookTest& test) {
@@ -102,8 +122,10 @@ static Json json_of(const WebhookTest& test) {
 }
 
 std::string type_of(const WebhookMessage& message) {
+    if (std::holds_alternative<WebhookTest>(message.data)) return "test";
     const auto* job = std::get_if<JobEnded>(&message.data);
-    return job == nullptr ? "test" : std::string(word_of(webhook_events, job->state));
+    return std::string(word_of(webhook_events,
+                               job == nullptr ? WebhookEvent::batch_finished : end_of(job->state)));
 }
 
 std::string to_json(const WebhookMessage& message) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,18 +15,21 @@ namespace lastflat::api {
 
 struct Field;
 
-/// A client is told of a job's end, in these states.
-inline constexpr Word<JobState> webhook_events[] = {{"job.succeeded", JobState::succeeded},
-                                                    {"job.failed", JobState::failed},
-                                                    {"job.canceled", JobState::canceled}};
+/// A client is told of the end of a job, in each of its states, and of a batch.
+enum class WebhookEvent { job_succeeded, job_failed, job_canceled, batch_finished };
+inline constexpr Word<WebhookEvent> job_events[] = {{"job.succeeded", WebhookEvent::job_succeeded},
+                                                    {"job.failed", WebhookEvent::job_failed},
+                                                    {"job.canceled", WebhookEvent::job_canceled}};
+inline constexpr Word<WebhookEvent> webhook_events[] = {
+    job_events[0], job_events[1], job_events[2], {"batch.finished", WebhookEvent::batch_finished}};
 
 /// The names with a space between, and back; what is no name is left out.
-[[nodiscard]] std::string event_names(const std::vector<JobState>& events);
-[[nodiscard]] std::vector<JobState> named_events(std::string_view names);
+[[nodiscard]] std::string event_names(const std::vector<WebhookEvent>& events);
+[[nodiscard]] std::vector<WebhookEvent> named_events(std::string_view names);
 
 struct WebhookRequest {
     std::string url;  ///< text; whether it is an address is not looked at
-    std::vector<JobState> events;
+    std::vector<WebhookEvent> events;
     std::string secret;  ///< "whsec_" and base64 of 24 to 64 bytes; empty: none was asked for
 };
 
@@ -45,7 +49,7 @@ enum class WebhookScope {
 struct Webhook {
     std::string id, url;
     std::string secret;  ///< "whsec_" and base64
-    std::vector<JobState> events;
+    std::vector<WebhookEvent> events;
     std::int64_t created_ms = 0;  ///< since 1970
 };
 /// `with_secret`: only in the answer that makes it.
@@ -55,16 +59,20 @@ struct Webhook {
 struct JobEnded {
     std::string id;
     JobState state;
-    std::string tag;  ///< empty: none
+    std::string tag, batch;  ///< empty: none
+};
+struct BatchFinished {
+    std::string id;
+    std::map<JobState, std::size_t> states;  ///< how many of its jobs ended in each
 };
 struct WebhookTest {
     std::string webhook;
 };
 struct WebhookMessage {
     std::int64_t at_ms;  ///< since 1970
-    std::variant<JobEnded, WebhookTest> data;
+    std::variant<JobEnded, BatchFinished, WebhookTest> data;
 };
-/// "job.failed", "test".
+/// "job.failed", "batch.finished", "test".
 [[nodiscard]] std::string type_of(const WebhookMessage& message);
 [[nodiscard]] std::string to_json(const WebhookMessage& message);
 

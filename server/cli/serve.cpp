@@ -14,6 +14,8 @@
 #include "server/routes/admin_routes.h"
 #include "server/routes/answers.h"
 #include "server/routes/asset_routes.h"
+#include "server/routes/batch_events.h"
+#include "server/routes/batch_results.h"
 #include "server/routes/batch_routes.h"
 #include "server/routes/document_routes.h"
 #include "server/routes/event_stream.h"
@@ -156,7 +158,9 @@ private:
         add(asset_routes({assets_, blobs_, jobs_, settings_.assets_per_key_mb,
                           settings_.storage_per_key_mb, settings_.min_free_mb}));
         add({validate_route({assets_, blobs_, tasks_, draining_})});
-        add(batch_routes({intake_, jobs_, view_}));
+        add(batch_routes({intake_, control_, batches_}));
+        add(batch_result_routes({batches_, blobs_}));
+        add({batch_event_route({batches_, watch_, seats_})});
         add(webhook_routes(webhooks_, settings_.webhooks != WebhookTargets::none));
         add({health_route(admin_services_)});
         add(document_routes());
@@ -217,6 +221,7 @@ private:
         seats_, run_tasks_in_workers(limits_, data_.work(), [this] { return watch_.is_closed(); })};
     const JobView view_{watch_, estimate_, settings_.workers};
     const JobWait wait_{jobs_, watch_, seats_, view_};
+    const BatchView batches_{jobs_, view_, watch_, seats_};
     const AdminServices admin_services_{jobs_,
                                         metrics_,
                                         draining_,

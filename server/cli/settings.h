@@ -21,8 +21,8 @@ struct Settings {
     std::optional<Address> admin;  ///< of health, readiness and metrics
     std::string data = "lastflat-data";
     std::size_t workers = 0;                 ///< 0: one for each core
-    std::size_t queue = 256;                 ///< jobs waiting
-    std::size_t queue_per_key = 64;          ///< of one API key
+    std::size_t queue = 1024;                ///< jobs waiting
+    std::size_t queue_per_key = 200;         ///< of one API key
     std::size_t assets_per_key_mb = 4096;    ///< models that one API key may leave here
     std::size_t storage_per_key_mb = 16384;  ///< models, results and assets of one API key
     std::size_t min_free_mb = 512;           ///< of the disk; with less, no new work is taken

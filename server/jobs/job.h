@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -25,6 +26,21 @@ struct NewJob {
     std::string idempotency_key;               ///< empty: none
     std::optional<std::int64_t> cancel_at_ms;  ///< if it has not ended by then
     std::optional<api::WebhookRequest> webhook;
+};
+
+/// Jobs that are taken together or not at all.
+struct NewBatch {
+    std::string id, owner;
+    std::string fingerprint, idempotency_key;
+    std::vector<NewJob> jobs;  ///< with this owner and batch
+};
+
+struct BatchRecord {
+    std::string id, owner;
+    std::int64_t created_ms = 0;
+    std::optional<std::int64_t> finished_ms;  ///< when the last of its jobs ended
+    std::size_t size = 0;                     ///< jobs that were taken
+    std::map<JobState, std::size_t> states;   ///< of those that are left
 };
 
 /// One format of a result: a part of the result's blob.

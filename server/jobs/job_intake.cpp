@@ -1,6 +1,8 @@
 #include "server/jobs/job_intake.h"
 
-#include "api/refusal.h"
+#include <algorithm>
+
+#include "api/object_reader.h"
 #include "server/jobs/job_control.h"
 #include "server/support/clock.h"
 #include "server/support/crypto.h"
@@ -23,7 +25,8 @@ NewJob new_job(const Submission& submission) {
     job.owner = submission.owner;
     job.tag = submission.tag;
     job.batch = submission.batch;
-    job.priority = submission.priority;
+    job.priority = submission.priority.value_or(job.batch.empty() ? api::JobPriority::interactive
+                                                                  : api::JobPriority::batch);
     job.request = submission.request;
     job.idempotency_key = submission.idempotency_key;
     if (const auto after = duration_ms(submission.cancel_after))
@@ -70,12 +73,15 @@ void JobIntake::refuse_admission(Admission admission) const {
     switch (admission) {
         case Admission::queue_full:
             api::refuse("queue_full",
-                        "the queue is full (" + std::to_string(limits_.queue.queued) +
-                            " jobs wait, the limit --queue); try again in a few seconds");
+                        "there is no room in the queue (" + std::to_string(limits_.queue.queued) +
+                            " jobs may wait, the limit --queue); try again in a few seconds");
         case Admission::owner_queue_full:
-            api::refuse("key_queue_full",
-                        "this API key has " + std::to_string(limits_.queue.queued_of_owner) +
-                            " jobs waiting (the limit --queue-per-key); wait for some to end");
+            throw api::Refusal(
+                "key_queue_full",
+                "with this, the API key would have more than " +
+                    std::to_string(limits_.queue.queued_of_owner) +
+                    " jobs waiting (the limit --queue-per-key); wait for some to end")
+                .with_header("Retry-After", "5");
         case Admission::storage_full: refuse_storage(limits_.queue.bytes_of_owner);
         case Admission::key_reused:
             api::refuse("key_reused",
@@ -105,37 +111,95 @@ std::string JobIntake::digest_of_model(const Submission& submission, NewJob& job
     return asset->digest;
 }
 
-Admitted JobIntake::admit(const Submission& submission, NewJob& job) {
-    const auto pin = blobs_.pin();
+void JobIntake::complete(const Submission& submission, NewJob& job) {
     job.model = digest_of_model(submission, job);
     job.fingerprint = sha256(job.model + "\n" + submission.cancel_after + "\n" + job.request +
                              webhook_print(job));
-    return jobs_.add(job, limits_.queue);
 }
 
-Submitted JobIntake::submit(const Submission& submission) {
+void JobIntake::check_taking() const {
     if (draining_)
         api::refuse("draining", "the service is ending and takes no new jobs; try again later");
-    if (submission.webhook) require_webhooks(limits_.webhooks);
     check_room(blobs_, limits_.min_free_mb);
-    // While one request with a key is being taken, a second one must not overtake it.
-    const std::string key = submission.owner + " " + submission.idempotency_key;
-    const bool has_key = !submission.idempotency_key.empty();
-    if (has_key && !enter(key))
+}
+
+template <class Take>
+auto JobIntake::alone_with(const std::string& owner, const std::string& key, Take take) {
+    const std::string owners_key = owner + " " + key;
+    if (!key.empty() && !enter(owners_key))
         api::refuse("key_in_flight",
                     "a request with this Idempotency-Key is being taken right now; ask again");
     const ScopeExit at_end([&] {
-        if (has_key) leave(key);
+        if (!key.empty()) leave(owners_key);
     });
-    NewJob job = new_job(submission);
-    const Admitted admitted = admit(submission, job);
-    if (admitted.admission == Admission::queued) {
-        executor_.wake();
-        return {found_job(jobs_, job.owner, job.id), false};
+    return take();
+}
+
+Submitted JobIntake::submit(const Submission& submission) {
+    check_taking();
+    if (submission.webhook) require_webhooks(limits_.webhooks);
+    return alone_with(submission.owner, submission.idempotency_key, [&]() -> Submitted {
+        NewJob job = new_job(submission);
+        const Admitted admitted = [&] {
+            const auto pin = blobs_.pin();
+            complete(submission, job);
+            return jobs_.add(job, limits_.queue);
+        }();
+        if (admitted.admission == Admission::queued) {
+            executor_.wake();
+            return {found_job(jobs_, job.owner, job.id), false};
+        }
+        drop_unneeded(blobs_, jobs_, {job.model});
+        if (admitted.admission != Admission::repeated) refuse_admission(admitted.admission);
+        return {found_job(jobs_, job.owner, admitted.id), true};
+    });
+}
+
+void JobIntake::fill(const BatchSubmission& from, NewBatch& batch) {
+    std::string prints;
+    for (std::size_t i = 0; i < from.size; ++i) {
+        Submission submission = from.submission(i);
+        if (submission.webhook) require_webhooks(limits_.webhooks);
+        submission.owner = batch.owner;
+        submission.batch = batch.id;
+        NewJob job = new_job(submission);
+        complete(submission, job);
+        prints += job.fingerprint + "\n";
+        batch.jobs.push_back(std::move(job));
     }
-    drop_unneeded(blobs_, jobs_, {job.model});
-    if (admitted.admission != Admission::repeated) refuse_admission(admitted.admission);
-    return {found_job(jobs_, job.owner, admitted.id), true};
+    batch.fingerprint = sha256(prints);
+}
+
+SubmittedBatch JobIntake::submit(const BatchSubmission& submission) {
+    check_taking();
+    const std::size_t most = std::min(limits_.queue.queued, limits_.queue.queued_of_owner);
+    if (submission.size > most)
+        throw api::InvalidRequest("/jobs", "has more jobs than a key may have waiting (" +
+                                               std::to_string(most) + ", --queue-per-key)");
+    return alone_with(submission.owner, submission.idempotency_key, [&]() -> SubmittedBatch {
+        NewBatch batch{new_job_id(), submission.owner, {}, submission.idempotency_key, {}};
+        const auto drop_models = [&] {
+            std::vector<std::string> models;
+            for (const NewJob& job : batch.jobs) models.push_back(job.model);
+            drop_unneeded(blobs_, jobs_, models);
+        };
+        Admitted admitted;
+        try {
+            const auto pin = blobs_.pin();
+            fill(submission, batch);
+            admitted = jobs_.add(batch, limits_.queue);
+        } catch (...) {
+            drop_models();
+            throw;
+        }
+        if (admitted.admission == Admission::queued) {
+            executor_.wake();
+            return {batch.id, false};
+        }
+        drop_models();
+        if (admitted.admission != Admission::repeated) refuse_admission(admitted.admission);
+        return {admitted.id, true};
+    });
 }
 
 }  // namespace lastflat::server

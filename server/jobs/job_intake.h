@@ -2,8 +2,10 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -25,12 +27,12 @@ struct Submission {
     std::string tag;
     std::optional<api::WebhookRequest> webhook;
 
-    std::string owner;            ///< id of the API key; empty: the service is open
-    std::string id;               ///< chosen by the client, else empty
-    std::string batch;            ///< id of the batch it came in; empty: alone
-    std::string idempotency_key;  ///< empty: none
-    std::string cancel_after;     ///< a duration as it was written; empty: never
-    api::JobPriority priority = api::JobPriority::interactive;
+    std::string owner;                         ///< id of the API key; empty: the service is open
+    std::string id;                            ///< chosen by the client, else empty
+    std::string batch;                         ///< id of the batch it came in; empty: alone
+    std::string idempotency_key;               ///< empty: none
+    std::string cancel_after;                  ///< a duration as it was written; empty: never
+    std::optional<api::JobPriority> priority;  ///< else that of a job alone, or in a batch
 
     void make_model(std::string bytes) {
         made = std::make_shared<const std::string>(std::move(bytes));
@@ -41,6 +43,19 @@ struct Submission {
 struct Submitted {
     JobRecord job;
     bool repeated = false;  ///< it was there already, the same
+};
+
+/// Submissions that are taken together or not at all.
+struct BatchSubmission {
+    std::string owner, idempotency_key;
+    std::size_t size = 0;
+    /// Reads one of them. Throws: api::Refusal naming its field.
+    std::function<Submission(std::size_t index)> submission;
+};
+
+struct SubmittedBatch {
+    std::string id;
+    bool repeated = false;
 };
 
 struct IntakeLimits {
@@ -75,11 +90,19 @@ public:
     /// Keeps a job; on the disk when this returns.
     /// Throws: api::Refusal (403, 409, 422, 429, 503, 507), StoreError.
     [[nodiscard]] Submitted submit(const Submission& submission);
+    /// Keeps all jobs of a batch, or none. Throws as above.
+    [[nodiscard]] SubmittedBatch submit(const BatchSubmission& batch);
 
 private:
     /// Where the model is kept; its size goes into the job.
     [[nodiscard]] std::string digest_of_model(const Submission& submission, NewJob& job);
-    [[nodiscard]] Admitted admit(const Submission& submission, NewJob& job);
+    /// Keeps the model and says what the job is.
+    void complete(const Submission& submission, NewJob& job);
+    void fill(const BatchSubmission& from, NewBatch& batch);
+    void check_taking() const;
+    /// Calls `take` while no other request with this key is being taken.
+    template <class Take>
+    auto alone_with(const std::string& owner, const std::string& key, Take take);
     [[noreturn]] void refuse_admission(Admission admission) const;
     /// False: a request with this key is being taken right now.
     [[nodiscard]] bool enter(const std::string& key);

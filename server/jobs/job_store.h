@@ -43,8 +43,8 @@ struct Admitted {
 };
 
 struct QueueLimits {
-    std::size_t queued = 256;                    ///< jobs waiting
-    std::size_t queued_of_owner = 64;            ///< of one key
+    std::size_t queued = 1024;                   ///< jobs waiting
+    std::size_t queued_of_owner = 200;           ///< of one key
     std::uint64_t bytes_of_owner = 16ULL << 30;  ///< models, results and assets of one key
 };
 
@@ -102,6 +102,10 @@ public:
     /// Keeps a new job as queued, or says why not. The same id or idempotency key with the same
     /// fingerprint is a repetition and changes nothing.
     [[nodiscard]] virtual Admitted add(const NewJob& job, const QueueLimits& limits) = 0;
+    /// The same for all jobs of a batch together; the key is the batch's, and the id, too.
+    [[nodiscard]] virtual Admitted add(const NewBatch& batch, const QueueLimits& limits) = 0;
+    [[nodiscard]] virtual std::optional<BatchRecord> find_batch(const std::string& owner,
+                                                                const std::string& id) = 0;
     [[nodiscard]] virtual std::optional<JobRecord> find(const std::string& owner,
                                                         const std::string& id) = 0;
     /// Whether the job was there and its time is over.

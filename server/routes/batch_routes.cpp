@@ -12,69 +12,69 @@ namespace {
 using http::Request;
 using http::Response;
 
-/// One job's own success or failure: a batch is taken in part. `batch`: its id, which is that of
-/// the first time if the batch is sent again.
-api::Batch::Item submit_one(const BatchServices& service, const Request& request,
-                            const api::BatchRequest& jobs, std::size_t index, std::string& batch) {
-    try {
-        Submission submission = submission_of(jobs.job(index));
-        read_terms(request, submission);
-        submission.batch = batch;
-        const Submitted submitted = service.intake.submit(submission);
-        if (submitted.repeated) batch = submitted.job.batch;
-        return {submitted.repeated ? 200 : 202, service.view.of(submitted.job)};
-    } catch (...) {
-        api::Problem problem = refusal_to(request, std::current_exception()).problem();
-        return {problem.status, std::move(problem)};
-    }
+/// The batch; with Retry-After while it has not finished.
+Response batch_response(const BatchView& view, const BatchRecord& batch, int status) {
+    Response response = json_response(status, view.json(batch));
+    if (!batch.finished_ms) response.headers.emplace_back("Retry-After", "1");
+    return response;
 }
 
-/// The request without its body, as that of an item: its key, if it has one, is the item's own.
-class ItemRequest {
-public:
-    explicit ItemRequest(const Request& whole) : key_(whole.header("idempotency-key")) {
-        request_.id = whole.id;
-        request_.headers = whole.headers;
-        request_.principal = whole.principal;
-    }
-    const Request& of(std::size_t index) {
-        if (!key_.empty()) request_.headers["idempotency-key"] = key_ + "/" + std::to_string(index);
-        return request_;
-    }
+/// After the wait that the client prefers, if it does.
+Response awaited(const BatchView& view, const Request& request, BatchRecord batch,
+                 int status_while_it_runs) {
+    const auto wait = preferred_wait(request);
+    if (wait && !batch.finished_ms) batch = view.wait(request, std::move(batch), *wait);
+    Response response = batch_response(view, batch, batch.finished_ms ? 200 : status_while_it_runs);
+    if (wait) response.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(*wait));
+    return response;
+}
 
-private:
-    Request request_;
-    const std::string key_;
-};
-
-Response post_batch(const BatchServices& service, const Request& request) {
-    if (request.body.empty() || request.body.front().media_type != "application/json")
-        api::refuse("media_type_unsupported", "a batch is sent as application/json");
+SubmittedBatch submit(const BatchServices& service, const Request& request) {
     const api::BatchRequest jobs = [&] {
         const LargeBodyTurn turn(request.body.front().bytes.size());
         return api::BatchRequest(request.body.front().bytes);
     }();
-    api::Batch batch{new_job_id(), {}};
-    ItemRequest item_request(request);
-    for (std::size_t i = 0; i < jobs.size(); ++i)
-        batch.items.push_back(submit_one(service, item_request.of(i), jobs, i, batch.id));
-    Response response = json_response(202, to_json(batch));
-    response.headers.emplace_back("Location", "/v1/batches/" + batch.id);
+    Submission terms;
+    read_terms(request, terms);
+    BatchSubmission batch{terms.owner, terms.idempotency_key, jobs.size(), {}};
+    batch.submission = [&](std::size_t index) {
+        Submission submission = submission_of(jobs.job(index), "/jobs/" + std::to_string(index));
+        submission.cancel_after = terms.cancel_after;
+        if (!submission.priority) submission.priority = terms.priority;
+        return submission;
+    };
+    return service.intake.submit(batch);
+}
+
+Response post_batch(const BatchServices& service, const Request& request) {
+    if (request.body.empty() || request.body.front().media_type != "application/json")
+        api::refuse("media_type_unsupported", "a batch is sent as application/json");
+    const SubmittedBatch submitted = submit(service, request);
+    Response response =
+        awaited(service.view, request, service.view.found(request, submitted.id), 202);
+    if (submitted.repeated) response.headers.emplace_back("Idempotent-Replayed", "true");
+    response.headers.emplace_back("Location", "/v1/batches/" + submitted.id);
     return response;
 }
 
 Response get_batch(const BatchServices& service, const Request& request) {
-    const std::string& id = request.captures.at(0);
-    JobFilter filter;
-    filter.batch = id;
-    filter.limit = api::most_batch_jobs;
-    const JobList list = service.jobs.list(request.principal, filter);
-    if (list.jobs.empty())
-        api::refuse("batch_not_found", "there is no batch " + id + ", or none of its jobs is left");
-    api::BatchState batch{id, {}};
-    for (auto job = list.jobs.rbegin(); job != list.jobs.rend(); ++job)
-        batch.items.push_back(service.view.of(*job));
-    return json_response(200, to_json(batch));
+    return awaited(service.view, request, service.view.found(request, request.captures.at(0)), 200);
+}
+
+Response cancel_batch(const BatchServices& service, const Request& request) {
+    const BatchRecord batch = service.view.found(request, request.captures.at(0));
+    if (batch.finished_ms) api::refuse("already_finished", "all jobs of the batch have ended");
+    for (const JobRecord& job : service.view.jobs_of(batch)) {
+        if (is_final(job.state)) continue;
+        try {
+            (void)service.control.cancel(request.principal, job.id);
+        } catch (const api::Refusal& refusal) {
+            // It has ended or was deleted meanwhile.
+            if (refusal.problem().status >= 500) throw;
+        }
+    }
+    const BatchRecord after = service.view.found(request, batch.id);
+    return batch_response(service.view, after, after.finished_ms ? 200 : 202);
 }
 
 }  // namespace
@@ -83,7 +83,9 @@ std::vector<http::Route> batch_routes(const BatchServices& service) {
     return {{"POST", "/v1/jobs:batch",
              [service](const Request& request) { return post_batch(service, request); }, true},
             {"GET", "/v1/batches/{id}",
-             [service](const Request& request) { return get_batch(service, request); }}};
+             [service](const Request& request) { return get_batch(service, request); }},
+            {"POST", "/v1/batches/{id}/cancel",
+             [service](const Request& request) { return cancel_batch(service, request); }}};
 }
 
 }  // namespace lastflat::server

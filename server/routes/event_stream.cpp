@@ -7,19 +7,15 @@
 #include "server/jobs/job_control.h"
 #include "server/jobs/result_parts.h"
 #include "server/routes/answers.h"
+#include "server/routes/server_sent_event.h"
 
 namespace lastflat::server {
 namespace {
 
 using Clock = JobWatch::Clock;
 
-constexpr std::chrono::seconds heartbeat{15};
 /// A client that has gone is noticed at the latest then.
 constexpr std::chrono::seconds look_at_client{1};
-
-std::string event(std::string_view name, const std::string& id, const std::string& data) {
-    return "event: " + std::string(name) + "\nid: " + id + "\ndata: " + data + "\n\n";
-}
 
 /// One client's view of one job. Lives on its connection's thread.
 class EventStream {
@@ -65,7 +61,7 @@ private:
         }
         std::string events;
         for (const std::string& log : logs)
-            events += event("log", std::to_string(job.revision), log);
+            events += event("log", log, std::to_string(job.revision));
         return events;
     }
 
@@ -80,12 +76,13 @@ private:
             if (change.revision > job->revision) break;
             seen_ = change.revision;
             progress_seen_ = 0;
-            news += event("state", std::to_string(seen_),
-                          to_json(api::StateEvent{change.state, change.at_ms, change.attempt}));
+            news +=
+                event("state", to_json(api::StateEvent{change.state, change.at_ms, change.attempt}),
+                      std::to_string(seen_));
         }
         if (is_final(job->state)) {
             news += remarks(*job);
-            news += event("done", std::to_string(job->revision), to_json(service_.view.of(*job)));
+            news += event("done", to_json(service_.view.of(*job)), std::to_string(job->revision));
             write(news);
             return false;
         }
@@ -94,7 +91,7 @@ private:
             progress_seen_ = progress->number;
             const api::ProgressEvent reached{progress->stage,
                                              static_cast<int>(100.0 * progress->fraction)};
-            news += event("progress", std::to_string(seen_), to_json(reached));
+            news += event("progress", to_json(reached), std::to_string(seen_));
         }
         if (news.empty()) return true;
         last_sent_ = Clock::now();

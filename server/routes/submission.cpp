@@ -105,13 +105,14 @@ std::string idempotency_key(const http::Request& request) {
 
 }  // namespace
 
-Submission submission_of(api::JsonSubmission json) {
+Submission submission_of(api::JsonSubmission json, const std::string& pointer) {
     Submission submission;
     submission.make_model(std::move(json.model));
     submission.asset = std::move(json.asset_id);
     submission.request = std::move(json.request_text);
     if (json.webhook && !is_webhook_url(json.webhook->url))
-        throw api::InvalidRequest("/webhook/url", not_a_webhook_url);
+        throw api::InvalidRequest(pointer + "/webhook/url", not_a_webhook_url);
+    submission.priority = json.priority;
     submission.webhook = std::move(json.webhook);
     return checked(std::move(submission), json.request);
 }
@@ -131,7 +132,7 @@ void read_terms(const http::Request& request, Submission& submission) {
     submission.cancel_after = request.header("cancel-after");
     if (!submission.cancel_after.empty() && !duration_ms(submission.cancel_after))
         api::refuse("header_invalid", "Cancel-After is not a duration such as 90s, 2m or 1h");
-    if (!request.headers.contains("job-priority")) return;
+    if (submission.priority || !request.headers.contains("job-priority")) return;
     const auto priority = api::value_of(api::job_priorities, request.header("job-priority"));
     if (!priority)
         api::refuse("header_invalid", "Job-Priority is one of " + api::listed(api::job_priorities));

@@ -17,8 +17,8 @@ namespace lastflat::server {
 /// Throws: api::Refusal, api::InvalidRequest.
 [[nodiscard]] Submission read_submission(const http::Request& request);
 
-/// Throws as above.
-[[nodiscard]] Submission submission_of(api::JsonSubmission json);
+/// `pointer`: where in the body it stands. Throws as above.
+[[nodiscard]] Submission submission_of(api::JsonSubmission json, const std::string& pointer = "");
 
 /// Who sends it, and what the headers Idempotency-Key, Cancel-After and Job-Priority say of it.
 /// Throws: api::Refusal (400).

@@ -36,6 +36,21 @@ std::optional<JobRecord> SqliteStore::find(const std::string& owner, const std::
     });
 }
 
+std::optional<BatchRecord> SqliteStore::find_batch(const std::string& owner,
+                                                   const std::string& id) {
+    return database_.read([&](SqliteConnection& connection) -> std::optional<BatchRecord> {
+        Query query(connection.prepared(
+            "SELECT created_ms, finished_ms, size FROM batches WHERE owner = ? AND id = ?"));
+        if (!query.bind(owner, id).next()) return std::nullopt;
+        return BatchRecord{id,
+                           owner,
+                           query.number(0),
+                           query.maybe_number(1),
+                           static_cast<std::size_t>(query.number(2)),
+                           batch_states(connection, owner, id)};
+    });
+}
+
 bool SqliteStore::is_expired(const std::string& owner, const std::string& id) {
     return database_.read([&](SqliteConnection& connection) {
         Query query(connection.prepared("SELECT 1 FROM expired WHERE owner = ? AND id = ?"));

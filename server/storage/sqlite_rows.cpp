@@ -7,15 +7,20 @@ namespace lastflat::server {
 namespace {
 
 JobRow row_of(const Query& query) {
-    return {query.number(0),         query.number(1),
-            state_of(query.text(2)), static_cast<int>(query.number(3)),
-            query.text(4),           query.text(5),
-            query.text(6),           query.text(7)};
+    return {query.number(0),
+            query.number(1),
+            state_of(query.text(2)),
+            static_cast<int>(query.number(3)),
+            query.text(4),
+            query.text(5),
+            query.text(6),
+            query.text(7),
+            query.text(8)};
 }
 
 /// The columns of `row_of`.
 const std::string select_row =
-    "SELECT seq, revision, state, attempt, id, owner, model, result FROM jobs ";
+    "SELECT seq, revision, state, attempt, id, owner, batch, model, result FROM jobs ";
 
 }  // namespace
 
@@ -114,22 +119,56 @@ void note_change(SqliteConnection& connection, const JobRow& row) {
         .run();
 }
 
-/// A message to each webhook of the job's owner, and to the job's own, that wants this state.
-void tell_webhooks(SqliteConnection& connection, const JobRow& row) {
+/// A message to each webhook of the owner, and to the job's own, that wants it.
+void tell_webhooks(SqliteConnection& connection, const JobRow& row,
+                   const api::WebhookMessage& message) {
     Query query(
-        connection.prepared("SELECT w.id, j.tag FROM webhooks w JOIN jobs j ON j.owner = w.owner "
-                            "AND w.job IN ('', j.id) WHERE j.seq = ?1 AND instr(' ' || w.events || "
-                            "' ', ' ' || ?2 || ' ') > 0"));
-    query.bind(row.seq, api::word_of(api::webhook_events, row.state));
+        connection.prepared("SELECT id FROM webhooks WHERE owner = ?1 AND job IN ('', ?2) AND "
+                            "instr(' ' || events || ' ', ' ' || ?3 || ' ') > 0"));
+    query.bind(row.owner, row.id, type_of(message));
     std::vector<std::string> webhooks;
-    std::string tag;
-    while (query.next()) {
-        webhooks.push_back(query.text(0));
-        tag = query.text(1);
-    }
-    const api::WebhookMessage message{now_ms(), api::JobEnded{row.id, row.state, tag}};
+    while (query.next()) webhooks.push_back(query.text(0));
     for (const std::string& webhook : webhooks)
         (void)add_delivery(connection, row.owner, webhook, message, most_pending_messages);
+}
+
+void tell_end(SqliteConnection& connection, const JobRow& row) {
+    Query query(connection.prepared("SELECT tag FROM jobs WHERE seq = ?"));
+    const std::string tag = query.bind(row.seq).next() ? query.text(0) : "";
+    tell_webhooks(connection, row, {now_ms(), api::JobEnded{row.id, row.state, tag, row.batch}});
+}
+
+std::map<JobState, std::size_t> batch_states(SqliteConnection& connection, const std::string& owner,
+                                             const std::string& id) {
+    Query query(connection.prepared(
+        "SELECT state, count(*) FROM jobs WHERE batch = ? AND batch <> '' AND owner = ? "
+        "GROUP BY state"));
+    query.bind(id, owner);
+    std::map<JobState, std::size_t> states;
+    while (query.next())
+        states[state_of(query.text(0))] = static_cast<std::size_t>(query.number(1));
+    return states;
+}
+
+/// A job of the batch has ended or is gone: it may have been the last, or the last that was left.
+void note_batch(SqliteConnection& connection, const JobRow& row) {
+    if (row.batch.empty()) return;
+    const auto states = batch_states(connection, row.owner, row.batch);
+    if (states.empty()) {
+        for (const char* sql : {"DELETE FROM batches WHERE owner = ? AND id = ?",
+                                "DELETE FROM idempotency WHERE owner = ? AND id = ?"})
+            Query(connection.prepared(sql)).bind(row.owner, row.batch).run();
+        return;
+    }
+    for (const auto& [state, jobs] : states) {
+        if (!is_final(state)) return;
+    }
+    const int finished = Query(connection.prepared("UPDATE batches SET finished_ms = ? WHERE owner "
+                                                   "= ? AND id = ? AND finished_ms IS NULL"))
+                             .bind(now_ms(), row.owner, row.batch)
+                             .run();
+    if (finished > 0)
+        tell_webhooks(connection, row, {now_ms(), api::BatchFinished{row.batch, states}});
 }
 
 void change_state(SqliteConnection& connection, JobRow& row, JobState to,
@@ -152,7 +191,9 @@ void change_state(SqliteConnection& connection, JobRow& row, JobState to,
         .bind(row.seq, name(to), row.revision, row.attempt, reason, now_ms())
         .run();
     note_change(connection, row);
-    if (is_final(to)) tell_webhooks(connection, row);
+    if (!is_final(to)) return;
+    tell_end(connection, row);
+    note_batch(connection, row);
 }
 
 std::uint64_t bytes_kept(SqliteConnection& connection, const std::string& owner) {
@@ -170,6 +211,7 @@ void erase_row(SqliteConnection& connection, const JobRow& row) {
         connection.prepared("SELECT 1 FROM webhooks WHERE owner = ?1 AND id = ?2 AND job = ?2"));
     if (own.bind(row.owner, row.id).next()) erase_webhook(connection, row.owner, row.id);
     Query(connection.prepared("DELETE FROM jobs WHERE seq = ?")).bind(row.seq).run();
+    note_batch(connection, row);
 }
 
 }  // namespace lastflat::server

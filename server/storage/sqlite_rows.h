@@ -12,7 +12,7 @@ struct JobRow {
     std::int64_t seq = 0, revision = 0;
     JobState state = JobState::queued;
     int attempt = 0;
-    std::string id, owner, model, result;
+    std::string id, owner, batch, model, result;
 };
 
 /// Throws: StoreError if it is none.
@@ -52,6 +52,11 @@ inline constexpr int most_pending_messages = 1000;
 void add_webhook(SqliteConnection& connection, const Webhook& webhook, const std::string& job);
 /// Forgets its messages too.
 void erase_webhook(SqliteConnection& connection, const std::string& owner, const std::string& id);
+
+/// How many of the batch's jobs that are left are in each state.
+[[nodiscard]] std::map<JobState, std::size_t> batch_states(SqliteConnection& connection,
+                                                           const std::string& owner,
+                                                           const std::string& id);
 
 /// Bytes of the owner's models, results and assets together.
 [[nodiscard]] std::uint64_t bytes_kept(SqliteConnection& connection, const std::string& owner);

@@ -298,6 +298,19 @@ CREATE TABLE turns (
     turn  INTEGER NOT NULL,
     PRIMARY KEY (what, owner)
 ) WITHOUT ROWID;
+)sql",
+                                R"sql(
+CREATE TABLE batches (
+    owner       TEXT NOT NULL,
+    id          TEXT NOT NULL,
+    created_ms  INTEGER NOT NULL,
+    finished_ms INTEGER,
+    size        INTEGER NOT NULL,
+    PRIMARY KEY (owner, id)
+) WITHOUT ROWID;
+INSERT INTO batches SELECT owner, batch, min(created_ms),
+    CASE WHEN count(*) = count(finished_ms) THEN max(finished_ms) END, count(*)
+    FROM jobs WHERE batch <> '' GROUP BY owner, batch;
 )sql"};
 
 }  // namespace

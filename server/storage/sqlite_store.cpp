@@ -28,6 +28,17 @@ std::int64_t count(SqliteConnection& connection, const char* sql, const std::str
     return query.next() ? query.number(0) : 0;
 }
 
+/// What this one repeats, or what stands in its way: it has the same key.
+std::optional<Admitted> earlier_with_key(SqliteConnection& connection, const std::string& owner,
+                                         const std::string& key, const std::string& fingerprint) {
+    if (key.empty()) return std::nullopt;
+    Query same_key(
+        connection.prepared("SELECT fingerprint, id FROM idempotency WHERE owner = ? AND key = ?"));
+    if (!same_key.bind(owner, key).next()) return std::nullopt;
+    const bool same = same_key.text(0) == fingerprint;
+    return Admitted{same ? Admission::repeated : Admission::key_reused, same_key.text(1)};
+}
+
 /// An earlier job that this one repeats, or stands in the way of.
 std::optional<Admitted> earlier(SqliteConnection& connection, const NewJob& job) {
     Query same_id(connection.prepared("SELECT fingerprint FROM jobs WHERE owner = ? AND id = ?"));
@@ -38,12 +49,29 @@ std::optional<Admitted> earlier(SqliteConnection& connection, const NewJob& job)
     Query webhook(connection.prepared("SELECT 1 FROM webhooks WHERE owner = ? AND id = ?"));
     if (job.webhook && webhook.bind(job.owner, job.id).next())
         return Admitted{Admission::id_taken, job.id};
-    if (job.idempotency_key.empty()) return std::nullopt;
-    Query same_key(
-        connection.prepared("SELECT fingerprint, id FROM idempotency WHERE owner = ? AND key = ?"));
-    if (!same_key.bind(job.owner, job.idempotency_key).next()) return std::nullopt;
-    const bool same = same_key.text(0) == job.fingerprint;
-    return Admitted{same ? Admission::repeated : Admission::key_reused, same_key.text(1)};
+    return earlier_with_key(connection, job.owner, job.idempotency_key, job.fingerprint);
+}
+
+void note_key(SqliteConnection& connection, const std::string& owner, const std::string& key,
+              const std::string& fingerprint, const std::string& id) {
+    if (key.empty()) return;
+    Query(connection.prepared("INSERT INTO idempotency VALUES (?, ?, ?, ?)"))
+        .bind(owner, key, fingerprint, id)
+        .run();
+}
+
+/// `queued` if so many more jobs with so many bytes of models fit, else why not.
+Admission room_for(SqliteConnection& connection, const std::string& owner, std::size_t jobs,
+                   std::uint64_t bytes, const QueueLimits& limits) {
+    const auto waiting = count(connection, "SELECT count(*) FROM jobs WHERE state = 'queued'");
+    if (static_cast<std::size_t>(waiting) + jobs > limits.queued) return Admission::queue_full;
+    if (owner.empty()) return Admission::queued;
+    const auto own =
+        count(connection, "SELECT count(*) FROM jobs WHERE state = 'queued' AND owner = ?", owner);
+    if (static_cast<std::size_t>(own) + jobs > limits.queued_of_owner)
+        return Admission::owner_queue_full;
+    return bytes_kept(connection, owner) + bytes > limits.bytes_of_owner ? Admission::storage_full
+                                                                         : Admission::queued;
 }
 
 void insert(SqliteConnection& connection, const NewJob& job) {
@@ -64,10 +92,6 @@ void insert(SqliteConnection& connection, const NewJob& job) {
                      job.owner},
                     job.id);
     }
-    if (job.idempotency_key.empty()) return;
-    Query(connection.prepared("INSERT INTO idempotency VALUES (?, ?, ?, ?)"))
-        .bind(job.owner, job.idempotency_key, job.fingerprint, job.id)
-        .run();
 }
 
 std::vector<std::string> texts_of(Query& query) {
@@ -150,25 +174,29 @@ void forget_expired(SqliteConnection& connection, const Retention& retention, Sw
 Admitted SqliteStore::add(const NewJob& job, const QueueLimits& limits) {
     return database_.write([&](SqliteConnection& connection) -> Admitted {
         if (const auto found = earlier(connection, job)) return *found;
-        const auto is_full = [](std::int64_t waiting, std::size_t most) {
-            return static_cast<std::size_t>(waiting) >= most;
-        };
-        if (is_full(count(connection, "SELECT count(*) FROM jobs WHERE state = 'queued'"),
-                    limits.queued)) {
-            return {Admission::queue_full, {}};
-        }
-        if (!job.owner.empty() &&
-            is_full(
-                count(connection, "SELECT count(*) FROM jobs WHERE state = 'queued' AND owner = ?",
-                      job.owner),
-                limits.queued_of_owner)) {
-            return {Admission::owner_queue_full, {}};
-        }
-        if (!job.owner.empty() &&
-            bytes_kept(connection, job.owner) + job.model_bytes > limits.bytes_of_owner)
-            return {Admission::storage_full, {}};
+        const Admission room = room_for(connection, job.owner, 1, job.model_bytes, limits);
+        if (room != Admission::queued) return {room, {}};
         insert(connection, job);
+        note_key(connection, job.owner, job.idempotency_key, job.fingerprint, job.id);
         return {Admission::queued, job.id};
+    });
+}
+
+Admitted SqliteStore::add(const NewBatch& batch, const QueueLimits& limits) {
+    return database_.write([&](SqliteConnection& connection) -> Admitted {
+        if (const auto found =
+                earlier_with_key(connection, batch.owner, batch.idempotency_key, batch.fingerprint))
+            return *found;
+        std::uint64_t bytes = 0;
+        for (const NewJob& job : batch.jobs) bytes += job.model_bytes;
+        const Admission room = room_for(connection, batch.owner, batch.jobs.size(), bytes, limits);
+        if (room != Admission::queued) return {room, {}};
+        Query(connection.prepared("INSERT INTO batches VALUES (?, ?, ?, NULL, ?)"))
+            .bind(batch.owner, batch.id, now_ms(), std::uint64_t{batch.jobs.size()})
+            .run();
+        for (const NewJob& job : batch.jobs) insert(connection, job);
+        note_key(connection, batch.owner, batch.idempotency_key, batch.fingerprint, batch.id);
+        return {Admission::queued, batch.id};
     });
 }
 

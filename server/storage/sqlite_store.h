@@ -13,6 +13,9 @@ public:
         : database_(database), retention_(retention) {}
 
     [[nodiscard]] Admitted add(const NewJob& job, const QueueLimits& limits) override;
+    [[nodiscard]] Admitted add(const NewBatch& batch, const QueueLimits& limits) override;
+    [[nodiscard]] std::optional<BatchRecord> find_batch(const std::string& owner,
+                                                        const std::string& id) override;
     [[nodiscard]] std::optional<JobRecord> find(const std::string& owner,
                                                 const std::string& id) override;
     [[nodiscard]] bool is_expired(const std::string& owner, const std::string& id) override;

@@ -9,7 +9,7 @@
 namespace lastflat::server {
 namespace {
 
-constexpr int most_listed = 100, most_pending_tests = 10;
+constexpr int most_shown = 100, most_pending_tests = 10;
 constexpr std::int64_t first_pause_ms = 5'000, longest_pause_ms = 600'000;
 
 Webhook webhook_of(const Query& query) {
@@ -118,7 +118,7 @@ std::vector<Delivery> SqliteWebhooks::deliveries(const std::string& owner, const
         Query query(
             connection.prepared(std::string(select_delivery) +
                                 "WHERE owner = ? AND webhook = ? ORDER BY seq DESC LIMIT ?"));
-        query.bind(owner, id, most_listed);
+        query.bind(owner, id, most_shown);
         std::vector<Delivery> deliveries;
         while (query.next()) deliveries.push_back(delivery_of(query));
         return deliveries;

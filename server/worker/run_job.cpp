@@ -5,8 +5,8 @@
 #include "api/flatten_result.h"
 #include "core/export/write_model.h"
 #include "core/export/write_svg.h"
+#include "server/support/gzip.h"
 #include "server/support/version.h"
-#include "server/worker/gzip.h"
 
 namespace lastflat::server {
 namespace {

@@ -71,43 +71,71 @@ TEST_SUITE("api/job") {
 }
 
 TEST_SUITE("api/batch") {
-    TEST_CASE("each job is read for itself") {
+    TEST_CASE("each job is read for itself, and a fault names the job") {
         const BatchRequest batch(
-            R"({"jobs": [{"model": {"asset_id": "a"}, "request": {"tag": "t"}}, {"model": {}}]})");
-        REQUIRE(batch.size() == 2);
+            R"({"jobs": [{"model": {"asset_id": "a"}, "request": {"tag": "t"}, "priority": "batch"},
+                         {"model": {}}, {"model": {"asset_id": "a"}, "request": {"lock": 1}}]})");
+        REQUIRE(batch.size() == 3);
         CHECK(batch.job(0).asset_id == "a");
         CHECK(batch.job(0).request.tag == "t");
-        try {
-            (void)batch.job(1);
-            FAIL("was read");
-        } catch (const InvalidRequest& error) {
-            CHECK(error.pointer() == "/model");
-        }
-        CHECK_THROWS_AS(BatchRequest("{}"), InvalidRequest);
-        CHECK_THROWS_AS(BatchRequest(R"({"jobs": {}})"), InvalidRequest);
+        CHECK(batch.job(0).priority == JobPriority::batch);
+        const auto pointer_of = [&](std::size_t index) {
+            try {
+                (void)batch.job(index);
+            } catch (const InvalidRequest& error) {
+                return error.pointer();
+            }
+            return std::string("was read");
+        };
+        CHECK(pointer_of(1) == "/jobs/1/model");
+        CHECK(pointer_of(2) == "/jobs/2/request/lock");
+        for (const char* broken : {"{}", R"({"jobs": {}})", R"({"jobs": []})"})
+            CHECK_THROWS_AS(BatchRequest{broken}, InvalidRequest);
     }
 
-    TEST_CASE("what was taken and what was refused is counted") {
-        const Batch batch{
-            "B", {{202, job("A", JobState::queued)}, {422, Problem("model_missing", "none")}}};
-        const auto answer = read(to_json(batch));
-        CHECK(answer["taken"] == 1);
-        CHECK(answer["refused"] == 1);
-        CHECK(answer["items"][0]["job"]["id"] == "A");
-        CHECK(answer["items"][1]["problem"]["code"] == "model_missing");
-        CHECK(answer["items"][1]["status"] == 422);
-        CHECK(answer["links"]["self"] == "/v1/batches/B");
-    }
-
-    TEST_CASE("a batch has ended when all of its jobs have") {
-        BatchState batch{"B", {job("A", JobState::failed), job("C", JobState::running)}};
+    TEST_CASE("a batch says how many of its jobs are in which state") {
+        Batch batch{"B", 0, {}, 3, {{JobState::failed, 1}, {JobState::running, 1}}, {}};
+        batch.items.push_back(job("A", JobState::failed));
         auto answer = read(to_json(batch));
         CHECK(answer["finished"] == false);
-        CHECK(answer["states"].dump() == R"({"failed":1,"running":1})");
-        batch.items[1].state = JobState::failed;
+        CHECK(answer["size"] == 3);
+        CHECK(answer["states"]["failed"] == 1);
+        CHECK(answer["states"]["running"] == 1);
+        CHECK(answer["items"][0]["id"] == "A");
+        CHECK(answer["links"]["archive"] == "/v1/batches/B/result.zip");
+        batch.finished_ms = 1'772'352'000'000;
         answer = read(to_json(batch));
         CHECK(answer["finished"] == true);
-        CHECK(answer["states"].dump() == R"({"failed":2})");
+        CHECK(answer["finished_at"] == "2026-03-01T08:00:00.000Z");
+    }
+
+    TEST_CASE("a table has a row for every curve and piece, and no text that is run as a formula") {
+        BatchTable table;
+        Job good = job("A", JobState::succeeded);
+        good.tag = "=cmd, \"x\"";
+        table.add(good, R"({"regions": [{"name": "lateral", "curves": [
+            {"name": "-heel", "locked": true, "length_3d_mm": 80, "length_2d_mm": 80,
+             "worst_edge_error_mm": 1e-9, "verdict": "pass"},
+            {"name": "toe", "locked": false, "length_3d_mm": 100, "length_2d_mm": 99,
+             "worst_edge_error_mm": 0.5}]}]})");
+        Job bad = job("C", JobState::failed);
+        bad.error = Problem("unreadable_model", "it is broken");
+        table.add(bad, "");
+        const std::string text = table.text();
+        CHECK(text.substr(text.find("\r\n") + 2) ==
+              "A,\"'=cmd, \"\"x\"\"\",succeeded,,lateral,'-heel,yes,80.000000,80.000000,0.000000,"
+              "0.000000,0.000000,pass\r\n"
+              "A,\"'=cmd, \"\"x\"\"\",succeeded,,lateral,toe,no,100.000000,99.000000,-1.000000,"
+              "-1.000000,0.500000,\r\n"
+              "C,,failed,unreadable_model,,,,,,,,,\r\n");
+    }
+
+    TEST_CASE("jobs without a result are listed with the reason") {
+        BatchErrors errors;
+        errors.add(job("A", JobState::failed), Problem("unreadable_model", "it is broken"));
+        const auto list = read(errors.json());
+        CHECK(list["items"][0]["job"] == "A");
+        CHECK(list["items"][0]["problem"]["code"] == "unreadable_model");
     }
 }
 

@@ -13,9 +13,9 @@ TEST_SUITE("api/webhook") {
         const auto& events = test::schema("NewWebhook").at("properties").at("events");
         CHECK(test::words(webhook_events) ==
               events.at("items").at("enum").get<std::set<std::string>>());
-        CHECK(webhook_from_json(R"({"url": "u"})").events.size() == 3);
+        CHECK(webhook_from_json(R"({"url": "u"})").events.size() == 4);
         const auto asked = webhook_from_json(R"({"url": "u", "events": ["job.failed"]})");
-        CHECK(asked.events == std::vector<JobState>{JobState::failed});
+        CHECK(asked.events == std::vector<WebhookEvent>{WebhookEvent::job_failed});
         CHECK_THROWS_AS((void)webhook_from_json(R"({"url": "u", "events": ["job.queued"]})"),
                         InvalidRequest);
     }
@@ -31,7 +31,7 @@ TEST_SUITE("api/webhook") {
                 .webhook.value();
         CHECK(webhook.url == "http://x/");
         CHECK(webhook.secret == secret);
-        CHECK(webhook.events == std::vector<JobState>{JobState::failed});
+        CHECK(webhook.events == std::vector<WebhookEvent>{WebhookEvent::job_failed});
         const auto pointer_of = [&](const std::string& text) {
             try {
                 (void)with(text);
@@ -49,19 +49,22 @@ TEST_SUITE("api/webhook") {
                   "/webhook/secret");
         CHECK(pointer_of(R"({"url": "http://x/", "secret": ")" + secret +
                          R"(", "events": ["job.lost"]})") == "/webhook/events/0");
+        CHECK(pointer_of(R"({"url": "http://x/", "secret": ")" + secret +
+                         R"(", "events": ["batch.finished"]})") == "/webhook/events/0");
         CHECK(pointer_of(R"({"url": "http://x/", "secret": ")" + secret + R"(", "more": 1})") ==
               "/webhook/more");
     }
 
     TEST_CASE("names of events lead back to the events") {
-        const std::vector<JobState> events{JobState::failed, JobState::succeeded};
+        const std::vector<WebhookEvent> events{WebhookEvent::job_failed,
+                                               WebhookEvent::job_succeeded};
         CHECK(event_names(events) == "job.failed job.succeeded");
         CHECK(named_events("job.failed job.succeeded") == events);
         CHECK(named_events("").empty());
     }
 
     TEST_CASE("the secret is shown once") {
-        const Webhook webhook{"W", "https://u", "whsec_s", {JobState::failed}, 0};
+        const Webhook webhook{"W", "https://u", "whsec_s", {WebhookEvent::job_failed}, 0};
         const std::string shown = R"({"id":"W","url":"https://u","events":["job.failed"],)"
                                   R"("created_at":"1970-01-01T00:00:00.000Z")";
         CHECK(to_json(webhook, false) == shown + "}");
@@ -70,9 +73,13 @@ TEST_SUITE("api/webhook") {
     }
 
     TEST_CASE("a message tells of a job's end, or is a test") {
-        const WebhookMessage ended{0, JobEnded{"J", JobState::succeeded, "order"}};
-        CHECK(to_json(ended) == R"({"type":"job.succeeded","timestamp":"1970-01-01T00:00:00.000Z",)"
-                                R"("data":{"id":"J","state":"succeeded","tag":"order"}})");
+        const WebhookMessage ended{0, JobEnded{"J", JobState::succeeded, "order", "B"}};
+        CHECK(to_json(ended) ==
+              R"({"type":"job.succeeded","timestamp":"1970-01-01T00:00:00.000Z",)"
+              R"("data":{"id":"J","state":"succeeded","tag":"order","batch":"B"}})");
+        CHECK(to_json(WebhookMessage{0, BatchFinished{"B", {{JobState::failed, 2}}}}) ==
+              R"({"type":"batch.finished","timestamp":"1970-01-01T00:00:00.000Z",)"
+              R"("data":{"batch":"B","states":{"failed":2}}})");
         CHECK(to_json(WebhookMessage{0, WebhookTest{"W"}}) ==
               R"({"type":"test","timestamp":"1970-01-01T00:00:00.000Z","data":{"webhook":"W"}})");
     }

@@ -26,7 +26,7 @@ set(library_homes
     "httplib: server/http/library.cpp"
     "openssl/: server/support/crypto.cpp"
     "spdlog/: server/support/log.cpp"
-    "libdeflate: server/worker/gzip.cpp"
+    "libdeflate: server/support/gzip.cpp"
     "SQLiteCpp/: server/storage/"
     "curl/: server/webhooks/"
     "CLI/: server/cli/")

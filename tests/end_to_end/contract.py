@@ -15,13 +15,13 @@ import math
 import os
 import pathlib
 import re
-import sqlite3
 import subprocess
 import sys
 import tempfile
 
 from contract_check import TYPES, load_contract
-from contract_service import NO_ASSET, NO_JOB, Server, Walk, bumpy_disk, form, path_of
+from contract_batches import walk_batches
+from contract_service import NO_ASSET, NO_JOB, Server, Walk, bumpy_disk, form, path_of, see_key_in_flight
 from contract_settings import walk_broken, walk_busy, walk_expiry, walk_keys, walk_room, walk_webhooks
 
 
@@ -159,7 +159,7 @@ def walk_waiting(walk, finished):
     walk.expect(503, "queue_full", "POST", "/v1/jobs", body=slow)
     walk.expect(200, None, "GET", "/v1/jobs/{id}", id=waiting)
     for method, path, operation in walk.contract.operations():
-        if "409" in operation["responses"] and method in ("GET", "HEAD"):
+        if "409" in operation["responses"] and method in ("GET", "HEAD") and path.startswith("/v1/jobs/"):
             walk.expect(409, "not_finished" if method == "GET" else None, method, path, id=waiting)
     walk.expect(409, "not_finished", "POST", "/v1/jobs/{id}/map", id=waiting, headers=["Content-Type: application/json"],
                 body=b'{"to_last": {"region": "r", "points": [[0, 0]]}}')
@@ -200,7 +200,8 @@ def walk_more(walk, example):
     first = walk.expect(202, None, "POST", "/v1/jobs", headers=key, **post_asset)
     again = walk.expect(202, None, "POST", "/v1/jobs", headers=key, **post_asset)
     assert first["id"] == again["id"] and "cancel_at" in first, (first, again)
-    walk_key_in_flight(walk, model)
+    job = see_key_in_flight(walk, "/v1/jobs", model)
+    walk.wait_for(job["id"], "succeeded")
     other = json.dumps({**by_asset, "request": {}}).encode()
     walk.expect(422, "key_reused", "POST", "/v1/jobs", headers=key, body=other)
     own = "0f8fad5b-d9cb-469f-a165-70867728950e"
@@ -215,16 +216,6 @@ def walk_more(walk, example):
     walk.expect(400, "header_invalid", "POST", "/v1/jobs", headers=["Cancel-After: soon"], body=model)
     walk.expect(400, "header_invalid", "POST", "/v1/jobs", headers=["Job-Priority: first"], body=model)
 
-    batch = walk.expect(202, None, "POST", "/v1/jobs:batch", headers=[json_type],
-                        body=json.dumps({"jobs": [by_asset, {"model": {"asset_id": NO_ASSET}}]}).encode())
-    assert (batch["taken"], batch["refused"]) == (1, 1) and batch["items"][1]["problem"]["code"] == "asset_not_found", batch
-    walk.expect(415, "media_type_unsupported", "POST", "/v1/jobs:batch", body=b"{}")
-    walk.expect(422, "invalid_request", "POST", "/v1/jobs:batch", headers=[json_type], body=b"{}")
-    walk.wait_for(batch["items"][0]["job"]["id"], "succeeded")
-    for method in ("GET", "HEAD"):
-        walk.expect(200, None, method, "/v1/batches/{id}", id=batch["id"])
-    assert walk.expect(200, None, "GET", "/v1/batches/{id}", id=batch["id"])["finished"]
-    walk.expect(404, "batch_not_found", "GET", "/v1/batches/{id}")
 
     seen, cursor = [], ""
     while cursor is not None:
@@ -240,22 +231,6 @@ def walk_more(walk, example):
     walk_conditions(walk, own)
     walk.expect(204, None, "DELETE", "/v1/assets/{digest}", id=digest)
     walk.expect(404, "asset_not_found", "DELETE", "/v1/assets/{digest}", id=digest)
-
-
-def walk_key_in_flight(walk, model):
-    """Two requests with a key while the store is locked by somebody else: one waits for it, the other is told so at once."""
-    held = sqlite3.connect(pathlib.Path(walk.server.folder.name, "jobs.sqlite"), isolation_level=None)
-    held.execute("BEGIN IMMEDIATE")
-    head = f'POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nIdempotency-Key: "twice"\r\nContent-Length: {len(model)}\r\n\r\n'
-    asked = [walk.server.open(head.encode() + model) for _ in range(2)]
-    refused = walk.server.first_answered(asked)
-    asked.remove(refused)
-    problem = walk.contract.check("POST", "/v1/jobs", walk.server.read(refused))
-    assert problem.get("code") == "key_in_flight", problem
-    held.execute("ROLLBACK")
-    held.close()
-    job = walk.contract.check("POST", "/v1/jobs", walk.server.read(asked[0]))
-    walk.wait_for(job["id"], "succeeded")
 
 
 def walk_conditions(walk, id):
@@ -328,6 +303,7 @@ def main():
     walk_keys(program, contract, example)
     walk_expiry(program, contract, example)
     walk_webhooks(program, contract, example)
+    walk_batches(program, contract, example)
     walk_room(program, contract)
     walk_busy(program, contract)
     walk_broken(program, contract, example)

@@ -3,8 +3,10 @@
 import base64
 import json
 import math
+import pathlib
 import select
 import socket
+import sqlite3
 import subprocess
 import tempfile
 import urllib.parse
@@ -104,6 +106,22 @@ class Walk:
 
     def wait_for(self, id, *states):
         return eventually(60, lambda: self.expect(200, None, "GET", "/v1/jobs/{id}", id=id), lambda job: job["state"] in states)
+
+
+def see_key_in_flight(walk, path, body, media_type="model/obj"):
+    """Two requests with a key while the store is locked by somebody else: one waits for it, the other is told so at once."""
+    held = sqlite3.connect(pathlib.Path(walk.server.folder.name, "jobs.sqlite"), isolation_level=None)
+    held.execute("BEGIN IMMEDIATE")
+    head = (f"POST {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nContent-Type: {media_type}\r\n"
+            f'Idempotency-Key: "twice"\r\nContent-Length: {len(body)}\r\n\r\n')
+    asked = [walk.server.open(head.encode() + body) for _ in range(2)]
+    refused = walk.server.first_answered(asked)
+    asked.remove(refused)
+    problem = walk.contract.check("POST", path, walk.server.read(refused))
+    assert problem.get("code") == "key_in_flight", problem
+    held.execute("ROLLBACK")
+    held.close()
+    return walk.contract.check("POST", path, walk.server.read(asked[0]))
 
 
 def form(*parts):

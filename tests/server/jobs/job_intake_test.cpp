@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "api/refusal.h"
+#include "api/object_reader.h"
 #include "server/storage/sqlite_accounts.h"
 #include "server/support/clock.h"
 #include "server/support/crypto.h"
@@ -108,6 +108,42 @@ TEST_SUITE("server/jobs/job_intake") {
         CHECK(s.blobs.all() == std::vector<std::string>{sha256("a")});  // the first one needs it
     }
 
+    TEST_CASE("a batch is kept whole or leaves nothing behind") {
+        IntakeSetting s({{10, 3}, 0, false});
+        std::vector<std::string> models{"a", "b", "c"};
+        BatchSubmission batch{"key", "once", 3, [&](std::size_t index) {
+                                  if (models[index] == "broken")
+                                      throw api::InvalidRequest("/jobs/" + std::to_string(index),
+                                                                "is broken");
+                                  return submission_of(models[index]);
+                              }};
+        const auto code_of_batch = [&] {
+            try {
+                return s.intake.submit(batch).repeated ? std::string("repeated") : "taken";
+            } catch (const api::Refusal& refusal) {
+                return std::string(refusal.problem().code.word());
+            }
+        };
+        models[2] = "broken";
+        CHECK(code_of_batch() == "invalid_request");
+        CHECK(s.blobs.all().empty());
+        models[2] = "c";
+        CHECK(code_of_batch() == "taken");
+        CHECK(s.blobs.all().size() == 3);
+        CHECK(s.executor.wakes == 1);
+        CHECK(code_of_batch() == "repeated");
+        models[0] = "d";
+        CHECK(code_of_batch() == "key_reused");
+        batch.idempotency_key.clear();
+        CHECK(code_of_batch() == "key_queue_full");
+        CHECK(s.blobs.all().size() == 3);
+        batch.size = 4;
+        CHECK(code_of_batch() == "invalid_request");  // it could never be taken
+        const JobList jobs = s.store.list("key", {});
+        CHECK(jobs.jobs.size() == 3);
+        CHECK(jobs.jobs[0].priority == api::JobPriority::batch);
+    }
+
     TEST_CASE("one key's jobs do not fill the queue of others") {
         IntakeSetting s({{10, 1}, 0, false});
         for (const char* owner : {"one", "another"}) {
@@ -139,7 +175,8 @@ TEST_SUITE("server/jobs/job_intake") {
         CHECK(full.code_of(submission_of("a")) == "storage_full");
         IntakeSetting quiet;
         Submission hooked = submission_of("a");
-        hooked.webhook = api::WebhookRequest{"https://example.com/", {JobState::failed}, "whsec_"};
+        hooked.webhook =
+            api::WebhookRequest{"https://example.com/", {api::WebhookEvent::job_failed}, "whsec_"};
         CHECK(quiet.code_of(hooked) == "webhooks_off");
         for (IntakeSetting* s : {&ends, &full, &quiet}) {
             CHECK(s->blobs.all().empty());

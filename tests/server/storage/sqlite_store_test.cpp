@@ -282,6 +282,52 @@ TEST_SUITE("server/storage/sqlite_store") {
         CHECK(s.add(taken) == Admission::id_taken);
     }
 
+    TEST_CASE("a batch is taken whole or not at all") {
+        TestStore s;
+        const auto batch_of = [](const char* id, int jobs, const char* key = "") {
+            NewBatch batch{id, "key", std::string("print-") + std::to_string(jobs), key, {}};
+            for (int i = 0; i < jobs; ++i) {
+                batch.jobs.push_back(new_job(id + std::to_string(i), "key"));
+                batch.jobs.back().batch = id;
+            }
+            return batch;
+        };
+        const QueueLimits limits{5, 4};
+        CHECK(s.store.add(batch_of("B", 5), limits).admission == Admission::owner_queue_full);
+        CHECK_FALSE(s.store.find("key", "B0").has_value());
+        CHECK_FALSE(s.store.find_batch("key", "B").has_value());
+        CHECK(s.store.add(batch_of("B", 3, "once"), limits).admission == Admission::queued);
+        const Admitted again = s.store.add(batch_of("C", 3, "once"), limits);
+        CHECK(again.admission == Admission::repeated);
+        CHECK(again.id == "B");
+        CHECK(s.store.add(batch_of("C", 2, "once"), limits).admission == Admission::key_reused);
+        CHECK(s.store.add(batch_of("C", 2), limits).admission == Admission::owner_queue_full);
+        CHECK(s.store.find_batch("key", "B")->states.at(JobState::queued) == 3);
+        CHECK(s.store.find_batch("key", "B")->size == 3);
+        CHECK_FALSE(s.store.find_batch("other", "B").has_value());
+    }
+
+    TEST_CASE("a batch has finished when the last of its jobs has ended or is deleted") {
+        TestStore s;
+        NewBatch batch{"B", "key", "print", "once", {}};
+        for (const char* id : {"B0", "B1", "B2"}) {
+            batch.jobs.push_back(new_job(id, "key"));
+            batch.jobs.back().batch = "B";
+        }
+        REQUIRE(s.store.add(batch, {}).admission == Admission::queued);
+        REQUIRE(s.store.finish(s.store.claim(long_lease)->lease, success()));
+        CHECK(s.store.cancel("key", "B1"));
+        CHECK_FALSE(s.store.find_batch("key", "B")->finished_ms.has_value());
+        CHECK(s.store.remove("key", "B2"));
+        const BatchRecord finished = s.store.find_batch("key", "B").value();
+        CHECK(finished.finished_ms.has_value());
+        CHECK(finished.states.size() == 2);
+        CHECK(finished.size == 3);
+        for (const char* id : {"B0", "B1"}) CHECK(s.store.remove("key", id));
+        CHECK_FALSE(s.store.find_batch("key", "B").has_value());
+        CHECK(s.store.add(batch, {}).admission == Admission::queued);  // its key is free again
+    }
+
     TEST_CASE("owners see their own jobs only") {
         TestStore s;
         REQUIRE(s.add(new_job("A", "one")) == Admission::queued);
@@ -424,6 +470,7 @@ INSERT INTO deliveries (id, webhook, event, payload, created_ms, next_ms)
         CHECK(job.batch == "b");
         CHECK(job.model_bytes == 7);
         CHECK(job.priority == api::JobPriority::interactive);
+        CHECK(store.find_batch("key", "b")->size == 1);
         CHECK(store.history(job.number, 0).size() == 1);
         CHECK(store.is_expired("key", "E"));
         NewJob again = new_job("other", "key");

@@ -125,11 +125,35 @@ TEST_SUITE("server/webhooks/dispatcher") {
         CHECK_FALSE(webhooks.claim(1000, 4).has_value());
     }
 
+    TEST_CASE("the end of a batch is told once, after its last job's") {
+        test::TestStore s;
+        SqliteWebhooks webhooks(s.database);
+        webhooks.add(webhook("all", "key", "job.succeeded job.failed job.canceled batch.finished"));
+        NewBatch batch{"B", "key", "print", "", {}};
+        for (const char* id : {"A", "C"}) {
+            batch.jobs.push_back(test::new_job(id, "key"));
+            batch.jobs.back().batch = "B";
+        }
+        REQUIRE(s.store.add(batch, {}).admission == Admission::queued);
+        CHECK(s.store.cancel("key", "A"));
+        CHECK(webhooks.deliveries("key", "all").size() == 1);
+        CHECK(s.store.finish(s.store.claim(60'000)->lease, test::failure()));
+        const auto sent = webhooks.deliveries("key", "all");
+        REQUIRE(sent.size() == 3);
+        CHECK(sent[0].event == "batch.finished");
+        CHECK(sent[0].payload.find(R"("states":{"failed":1,"canceled":1})") != std::string::npos);
+        for (const auto& message : sent)
+            CHECK(message.payload.find(R"("batch":"B")") != std::string::npos);
+        CHECK(s.store.remove("key", "A"));
+        CHECK(webhooks.deliveries("key", "all").size() == 3);
+    }
+
     TEST_CASE("a job's own webhook is told of that job alone, and goes with it") {
         test::TestStore s;
         SqliteWebhooks webhooks(s.database);
         NewJob job = test::new_job("A", "key");
-        job.webhook = api::WebhookRequest{"http://example.com/", {JobState::canceled}, "whsec_"};
+        job.webhook =
+            api::WebhookRequest{"http://example.com/", {api::WebhookEvent::job_canceled}, "whsec_"};
         REQUIRE(s.add(job) == Admission::queued);
         REQUIRE(s.add(job) == Admission::repeated);
         REQUIRE(s.add(test::new_job("B", "key")) == Admission::queued);
@@ -149,14 +173,16 @@ TEST_SUITE("server/webhooks/dispatcher") {
         SqliteWebhooks webhooks(s.database);
         webhooks.add(webhook("A", "key", "job.failed"));
         NewJob job = test::new_job("A", "key");
-        job.webhook = api::WebhookRequest{"http://example.com/", {JobState::failed}, "whsec_"};
+        job.webhook =
+            api::WebhookRequest{"http://example.com/", {api::WebhookEvent::job_failed}, "whsec_"};
         CHECK(s.add(job) == Admission::id_taken);
         job.webhook.reset();
         REQUIRE(s.add(job) == Admission::queued);
         CHECK(s.store.remove("key", "A"));
         CHECK(webhooks.find("key", "A").has_value());
         NewJob other = test::new_job("A", "another key");
-        other.webhook = api::WebhookRequest{"http://example.com/", {JobState::failed}, "whsec_"};
+        other.webhook =
+            api::WebhookRequest{"http://example.com/", {api::WebhookEvent::job_failed}, "whsec_"};
         REQUIRE(s.add(other) == Admission::queued);
         CHECK(s.store.remove("another key", "A"));
         CHECK(webhooks.find("key", "A").has_value());

@@ -1,4 +1,4 @@
-#include "server/worker/gzip.h"
+#include "server/support/gzip.h"
 
 #include <libdeflate.h>
 
