@@ -1,7 +1,6 @@
 #include "server/routes/batch_view.h"
 
 #include <algorithm>
-#include <thread>
 
 #include "api/batch.h"
 #include "api/refusal.h"
@@ -30,12 +29,24 @@ std::string BatchView::json(const BatchRecord& batch) const {
     return to_json(shown);
 }
 
+void BatchView::wait_for_one(const BatchRecord& batch) const {
+    const auto until = JobWatch::Clock::now() + look_at_batch;
+    for (const JobRecord& job : jobs_of(batch)) {
+        if (is_final(job.state)) continue;
+        JobWatch::Subscription subscription(watch_, job.number);
+        // It may have ended before anybody listened.
+        const auto now = jobs_.find(batch.owner, job.id);
+        if (now && !is_final(now->state)) (void)subscription.wait_until(until);
+        return;
+    }
+}
+
 BatchRecord BatchView::wait(const http::Request& request, BatchRecord batch, int seconds) const {
     const WaitingSeat seat(seats_, request);
     const auto deadline = JobWatch::Clock::now() + std::chrono::seconds(seconds);
     while (seat.is_taken() && !batch.finished_ms && JobWatch::Clock::now() < deadline &&
            !watch_.is_closed() && !request.is_client_gone()) {
-        std::this_thread::sleep_for(look_at_batch);
+        wait_for_one(batch);
         batch = found(request, batch.id);
     }
     return batch;

@@ -9,13 +9,13 @@
 
 namespace lastflat::server {
 
-/// What is looked at again while somebody waits for a batch.
+/// After so long a batch is looked at again while somebody waits for it, at the latest.
 inline constexpr std::chrono::milliseconds look_at_batch{200};
 
 class BatchView {
 public:
     /// All must outlive it.
-    BatchView(JobStore& jobs, const JobView& view, const JobWatch& watch, SeatsByKey& seats)
+    BatchView(JobStore& jobs, const JobView& view, JobWatch& watch, SeatsByKey& seats)
         : jobs_(jobs), view_(view), watch_(watch), seats_(seats) {}
 
     /// Throws: api::Refusal (404); StoreError.
@@ -29,9 +29,12 @@ public:
                                    int seconds) const;
 
 private:
+    /// Until something happens to the first of its jobs that has not ended, or a short while.
+    void wait_for_one(const BatchRecord& batch) const;
+
     JobStore& jobs_;
     const JobView& view_;
-    const JobWatch& watch_;
+    JobWatch& watch_;
     SeatsByKey& seats_;
 };
 
