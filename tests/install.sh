@@ -10,7 +10,9 @@ run=(libcpp-httplib0.11 libtinygltf2d libdraco7 libmeshoptimizer2d libopenmesh1 
 build=(g++ cmake ninja-build pkg-config libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev
        nlohmann-json3-dev libcpp-httplib-dev libspdlog-dev libcli11-dev libsqlitecpp-dev libsqlite3-dev libssl-dev libdeflate-dev libcurl4-openssl-dev doctest-dev)
 client=(curl jq)
-test=("${client[@]}" bats python3 python3-jsonschema procps nginx-light zlib1g-dev clang-format-14 clang-tidy-14 libcgal-dev)
+# Whoever has a Node of another origin keeps it.
+command -v npm >/dev/null && node=() || node=(nodejs npm)
+test=("${client[@]}" "${node[@]}" bats python3 python3-jsonschema procps nginx-light zlib1g-dev clang-format-14 clang-tidy-14 libcgal-dev)
 
 wanted=()
 for set in "$@"; do

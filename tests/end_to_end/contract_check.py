@@ -76,8 +76,10 @@ class Contract:
                 return self.complain(where, f"this status is not declared: {body[:200]!r}")
         else:
             like = any(re.fullmatch(re.sub(r"\{.*?\}", "[^/]+", known), path) for known in self.document["paths"])
-            name, wanted = ("MethodNotAllowed", 405) if item else ("BadRequest", 400) if like else ("NotFound", 404)
-            response = {"$ref": "#/components/responses/" + name}
+            name, wanted = ("NotFound", 405) if item else ("BadRequest", 400) if like else ("NotFound", 404)
+            response = self.document["components"]["responses"][name]
+            if item:
+                response = {**response, "headers": {**response["headers"], "Allow": {"$ref": "#/components/headers/Allow"}}}
             if status != wanted:
                 return self.complain(where, "expected 405 for a method, 400 for an id that is none, 404 for any other path")
         response = self.resolve(response)
