@@ -248,7 +248,7 @@ int run(int argc, char** argv) {
     Arguments a;
     CLI::App app(
         "lastflat: 3D shoe lasts to flat patterns whose named curves keep their length exactly");
-    app.set_version_flag("--version", std::string("lastflat ") + server::version);
+    app.set_version_flag("--version", std::string("lastflat ") + server::build);
     app.require_subcommand(1);
     const auto* serve = add_serve(app, a);
     const auto* flatten = add_flatten(app, a);

@@ -1,4 +1,4 @@
-// A seat to wait in: of the room that all have, and of the half of it that one key may have.
+// A seat to wait in: of the room that all have, and of the share of it that one key may have.
 #pragma once
 
 #include <map>
@@ -13,24 +13,28 @@ namespace lastflat::server {
 class SeatsByKey {
 public:
     /// `streams`: seats in the room.
-    explicit SeatsByKey(std::size_t streams) : most_((streams + 1) / 2) {}
+    explicit SeatsByKey(std::size_t streams) : free_(streams) {}
 
-    /// False: the key has as many as it may. Without keys, whoever asks may have all.
+    /// False: the key has as many as are left for all others, at most half of all: however many
+    /// keys wait, the next one finds a seat. Without keys, whoever asks may have all.
     [[nodiscard]] bool enter(const std::string& key) {
         const std::scoped_lock lock(mutex_);
-        std::size_t& seats = seats_[key];
-        if (!key.empty() && seats >= most_) return false;
-        ++seats;
+        const auto own = seats_.find(key);
+        const std::size_t seats = own == seats_.end() ? 0 : own->second;
+        if (free_ == 0 || (!key.empty() && seats >= free_)) return false;
+        --free_;
+        ++seats_[key];
         return true;
     }
     void leave(const std::string& key) {
         const std::scoped_lock lock(mutex_);
+        ++free_;
         if (--seats_[key] == 0) seats_.erase(key);
     }
 
 private:
-    const std::size_t most_;
     std::mutex mutex_;
+    std::size_t free_;
     std::map<std::string, std::size_t> seats_;
 };
 

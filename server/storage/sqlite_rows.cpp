@@ -1,6 +1,7 @@
 #include "server/storage/sqlite_rows.h"
 
 #include "server/jobs/result_parts.h"
+#include "server/storage/sqlite_turns.h"
 #include "server/support/clock.h"
 
 namespace lastflat::server {
@@ -176,6 +177,11 @@ void change_state(SqliteConnection& connection, JobRow& row, JobState to,
     if (!may_become(row.state, to)) {
         throw std::logic_error("a job cannot become " + std::string(name(to)) + " from " +
                                std::string(name(row.state)));
+    }
+    if (row.state == JobState::running || row.state == JobState::canceling) {
+        Query begun(connection.prepared("SELECT started_ms FROM jobs WHERE seq = ?"));
+        if (to != JobState::canceling && begun.bind(row.seq).next())
+            charge_job_turn(connection, row.owner, now_ms() - begun.number(0));
     }
     row.state = to;
     ++row.revision;

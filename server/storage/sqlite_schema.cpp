@@ -291,7 +291,8 @@ CREATE TRIGGER asset_removed AFTER DELETE ON assets BEGIN
     UPDATE usage SET bytes = bytes - old.bytes WHERE owner = old.owner;
 END;
 
--- When an owner was last served, as a number that grows with every turn.
+-- Whose turn it is: the least. Of jobs, ms of workers that an owner has used; of messages, a number
+-- that grows with every turn.
 CREATE TABLE turns (
     what  TEXT NOT NULL,
     owner TEXT NOT NULL,

@@ -75,6 +75,7 @@ Admission room_for(SqliteConnection& connection, const std::string& owner, std::
 }
 
 void insert(SqliteConnection& connection, const NewJob& job) {
+    enter_job_turns(connection, job.owner);
     Query(connection.prepared(
               "INSERT INTO jobs (id, owner, tag, batch, priority, state, request, model, "
               "model_bytes, fingerprint, created_ms, cancel_at_ms) "

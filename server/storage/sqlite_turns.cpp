@@ -32,26 +32,53 @@ const std::string select_delivery_owner =
     "AND EXISTS (SELECT 1 FROM deliveries WHERE owner = w.owner AND next_ms <= ?1) "
     "ORDER BY coalesce(s.messages, 0), coalesce(t.turn, 0), w.owner LIMIT 1";
 
-std::optional<std::string> note_turn(SqliteConnection& connection, const char* what, Query& next) {
-    if (!next.next()) return std::nullopt;
+/// What a turn costs at least, in ms of a worker: even jobs that take no time are no reason to let
+/// others wait.
+constexpr std::int64_t least_cost_ms = 100;
+
+}  // namespace
+
+void enter_job_turns(SqliteConnection& connection, const std::string& owner) {
+    Query active(connection.prepared(
+        "SELECT 1 FROM jobs WHERE state IN ('queued', 'running', 'canceling') AND owner = ?"));
+    if (active.bind(owner).next()) return;
+    Query(connection.prepared(
+              "INSERT OR REPLACE INTO turns SELECT 'job', ?1, max("
+              "coalesce((SELECT turn FROM turns WHERE what = 'job' AND owner = ?1), 0), "
+              "coalesce((SELECT min(turn) FROM turns t WHERE what = 'job' AND EXISTS (SELECT 1 "
+              "FROM jobs WHERE state IN ('queued', 'running', 'canceling') AND owner = t.owner)), "
+              "0))"))
+        .bind(owner)
+        .run();
+}
+
+std::optional<std::string> take_job_turn(SqliteConnection& connection) {
+    Query next(connection.prepared(select_job_owner));
+    if (!next.bind(now_ms()).next()) return std::nullopt;
     std::string owner = next.text(0);
-    Query(connection.prepared("INSERT OR REPLACE INTO turns SELECT ?1, ?2, "
-                              "coalesce(max(turn), 0) + 1 FROM turns WHERE what = ?1"))
-        .bind(what, owner)
+    Query(connection.prepared("INSERT INTO turns VALUES ('job', ?1, ?2) ON CONFLICT (what, owner) "
+                              "DO UPDATE SET turn = turn + excluded.turn"))
+        .bind(owner, least_cost_ms)
         .run();
     return owner;
 }
 
-}  // namespace
-
-std::optional<std::string> take_job_turn(SqliteConnection& connection) {
-    Query next(connection.prepared(select_job_owner));
-    return note_turn(connection, "job", next.bind(now_ms()));
+void charge_job_turn(SqliteConnection& connection, const std::string& owner, std::int64_t used_ms) {
+    if (used_ms <= least_cost_ms) return;
+    Query(connection.prepared("UPDATE turns SET turn = turn + ? WHERE what = 'job' AND owner = ?"))
+        .bind(used_ms - least_cost_ms, owner)
+        .run();
 }
 
 std::optional<std::string> take_delivery_turn(SqliteConnection& connection, int most) {
     Query next(connection.prepared(select_delivery_owner));
-    return note_turn(connection, "delivery", next.bind(now_ms(), most));
+    if (!next.bind(now_ms(), most).next()) return std::nullopt;
+    std::string owner = next.text(0);
+    Query(connection.prepared("INSERT OR REPLACE INTO turns SELECT 'delivery', ?1, "
+                              "coalesce(max(turn), 0) + 1 FROM turns WHERE what = 'delivery'"))
+        .bind(owner)
+        .run();
+    return owner;
 }
 
 std::size_t queue_position_of(SqliteConnection& connection, std::int64_t job) {

@@ -8,10 +8,16 @@
 
 namespace lastflat::server {
 
+/// An owner is about to have a job. Who was away has saved nothing up: it begins where the least of
+/// the others stands.
+void enter_job_turns(SqliteConnection& connection, const std::string& owner);
 /// The owner who is served next, of those with something that may be claimed: who has the fewest in
-/// work, and among those whose last turn is longest ago. Notes the turn.
+/// work, and among those who has used workers least. Notes the turn.
 [[nodiscard]] std::optional<std::string> take_job_turn(SqliteConnection& connection);
-/// The same for messages to webhooks. Nobody has more than `most` of them on the way.
+/// Notes that a job has kept a worker for so long.
+void charge_job_turn(SqliteConnection& connection, const std::string& owner, std::int64_t used_ms);
+/// The owner whose message to a webhook is next: who has the fewest on the way, and among those
+/// whose last turn is longest ago. Nobody has more than `most` of them on the way.
 [[nodiscard]] std::optional<std::string> take_delivery_turn(SqliteConnection& connection, int most);
 
 /// The place of a queued job, from 1, if everybody's jobs take equally long.

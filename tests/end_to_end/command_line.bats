@@ -34,7 +34,7 @@ says() {
 
 @test "--version and --help" {
     run -0 "$LASTFLAT" --version
-    assert_equal "$output" "lastflat $(jq -r .info.version "$contract")"
+    [[ $output =~ ^lastflat\ $(jq -r .info.version "$contract")(\ \(commit\ [0-9a-f]+\))?$ ]]
     run -0 "$LASTFLAT" --help
     for command in serve flatten sample-last; do [[ $output == *"$command"* ]]; done
     run -0 "$LASTFLAT" flatten --help

@@ -228,6 +228,26 @@ TEST_SUITE("server/routes/event_stream") {
         CHECK(s.seats.free() == 1);
     }
 
+    TEST_CASE("a key has as many seats as are left for the others") {
+        SeatsByKey seats(8);
+        const auto take_all = [&](const std::string& key) {
+            int taken = 0;
+            while (seats.enter(key)) ++taken;
+            return taken;
+        };
+        CHECK(take_all("a") == 4);
+        CHECK(take_all("b") == 2);
+        CHECK(take_all("c") == 1);
+        CHECK(take_all("d") == 1);
+        CHECK(take_all("e") == 0);
+        for (int i = 0; i < 4; ++i) seats.leave("a");
+        CHECK(take_all("e") == 2);
+        SeatsByKey open(3);
+        int taken = 0;
+        while (open.enter("")) ++taken;
+        CHECK(taken == 3);
+    }
+
     TEST_CASE("who may not, cannot or does not want to watch is told why") {
         StreamSetting s;
         REQUIRE(s.add(new_job("A", "key")) == Admission::queued);

@@ -87,6 +87,33 @@ TEST_SUITE("server/storage/sqlite_store") {
         CHECK(s.store.claim(long_lease)->id == "A2");
     }
 
+    TEST_CASE("who has used workers longer waits longer, and who was away has saved nothing up") {
+        TestStore s;
+        for (int i = 0; i < 4; ++i) {
+            REQUIRE(s.add(new_job("A" + std::to_string(i), "one")) == Admission::queued);
+            REQUIRE(s.add(new_job("B" + std::to_string(i), "two")) == Admission::queued);
+        }
+        const auto run_one = [&](std::int64_t ms) {
+            const Claim claim = s.store.claim(long_lease).value();
+            s.database.write([&](SqliteConnection& connection) {
+                Query(
+                    connection.prepared("UPDATE jobs SET started_ms = started_ms - ? WHERE id = ?"))
+                    .bind(ms, claim.id)
+                    .run();
+            });
+            REQUIRE(s.store.finish(claim.lease, failure()));
+            return claim.id;
+        };
+        CHECK(run_one(250) == "A0");
+        CHECK(run_one(0) == "B0");
+        CHECK(run_one(0) == "B1");
+        CHECK(run_one(10'000) == "B2");
+        REQUIRE(s.add(new_job("C0", "three")) == Admission::queued);
+        REQUIRE(s.add(new_job("C1", "three")) == Admission::queued);
+        for (const char* next : {"A1", "C0", "A2", "C1", "A3"}) CHECK(run_one(0) == next);
+        CHECK(run_one(0) == "B3");
+    }
+
     TEST_CASE("an owner whose jobs are all put off keeps nobody waiting") {
         TestStore s;
         REQUIRE(s.add(new_job("A", "one")) == Admission::queued);
