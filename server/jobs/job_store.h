@@ -117,7 +117,8 @@ public:
     [[nodiscard]] virtual JobCounts counts() = 0;
 
     /// The next queued job becomes running and is the caller's until the lease ends. Owners take
-    /// turns: who has the fewest running is next, and among those who has used workers least. Among the jobs of one owner the priority decides, then the age.
+    /// turns: who has the fewest running is next, and among those who has used workers least. Among
+    /// the jobs of one owner the priority decides, then the age.
     [[nodiscard]] virtual std::optional<Claim> claim(std::int64_t lease_ms) = 0;
     /// Extends a lease. `canceling`: held, but to be given up.
     [[nodiscard]] virtual Hold renew(const Lease& lease, std::int64_t lease_ms) = 0;

@@ -72,7 +72,7 @@ http::Response events(const BatchEventServices& service, const http::Request& re
     if (!stream->has_seat())
         api::refuse(
             "streams_full",
-            "all event streams and long polls are taken, or this key's half of them (the limit "
+            "all event streams and long polls are taken, or this key's share of them (the limit "
             "--streams); poll the batch");
     http::Response response;
     response.media_type = "text/event-stream";

@@ -131,7 +131,7 @@ http::Response events(const EventServices& service, const http::Request& request
     if (!stream->has_seat())
         api::refuse(
             "streams_full",
-            "all event streams and long polls are taken, or this key's half of them (the limit "
+            "all event streams and long polls are taken, or this key's share of them (the limit "
             "--streams); poll the job");
     http::Response response;
     response.media_type = "text/event-stream";
