@@ -4,9 +4,21 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace lastflat::http {
 namespace {
+
+/// An IPv4 address is the same as the IPv6 address that maps it.
+std::optional<std::array<unsigned char, 16>> bytes_of(const std::string& text) {
+    std::array<unsigned char, 16> bytes{};
+    if (::inet_pton(AF_INET, text.c_str(), bytes.data() + 12) == 1) {
+        bytes[10] = bytes[11] = 0xff;
+        return bytes;
+    }
+    if (::inet_pton(AF_INET6, text.c_str(), bytes.data()) == 1) return bytes;
+    return std::nullopt;
+}
 
 /// The last item of a list, which loses it.
 std::string last_item(std::string_view& list) {
@@ -21,16 +33,14 @@ std::string last_item(std::string_view& list) {
 }  // namespace
 
 bool is_address(const std::string& text) {
-    in6_addr bytes{};
-    return ::inet_pton(AF_INET, text.c_str(), &bytes) == 1 ||
-           ::inet_pton(AF_INET6, text.c_str(), &bytes) == 1;
+    return bytes_of(text).has_value();
 }
 
 std::string client_address(const std::string& peer, std::string_view forwarded_for,
                            const std::vector<std::string>& trusted_proxies) {
     const auto is_trusted = [&](const std::string& address) {
-        return std::find(trusted_proxies.begin(), trusted_proxies.end(), address) !=
-               trusted_proxies.end();
+        return std::any_of(trusted_proxies.begin(), trusted_proxies.end(),
+                           [&](const auto& proxy) { return bytes_of(proxy) == bytes_of(address); });
     };
     std::string client = peer;
     while (is_trusted(client) && !forwarded_for.empty()) {

@@ -123,24 +123,30 @@ void ConnectionPool::identify_one(std::unique_lock<std::mutex>& lock) {
     arrived_.pop_front();
     ++identifying_;
     lock.unlock();
-    const std::string name = identify_(connection);
-    lock.lock();
-    const bool is_refused = connection.refused.has_value();
-    const auto client = is_refused ? clients_.end() : clients_.try_emplace(name).first;
-    if (!is_refused && client->second.queue.size() < limits_.queued_of_client) {
-        if (client->second.queue.empty()) client->second.asked = ++turns_;
-        client->second.queue.push_back(std::move(connection));
-        ++queued_;
-    } else {
-        // Small answers, which no client can make wait.
-        lock.unlock();
-        if (!is_refused) connection.refused = refuse_(connection.head.request);
+    try {
+        const std::string name = identify_(connection);
+        if (!connection.refused && !queue(connection, name))
+            connection.refused = refuse_(connection.head.request);
+        // Small answers, written at once or not at all: no client can make them wait.
         NoRoom none;
-        serve(std::move(connection), none);
-        lock.lock();
+        if (connection.refused) serve_(std::move(connection), none);
+    } catch (...) {
+        // Out of memory, most likely. The connection closes itself; the thread goes on.
     }
+    lock.lock();
     --identifying_;
     if (finishing_) changed_.notify_all();
+}
+
+bool ConnectionPool::queue(VettedConnection& connection, const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    const auto client = clients_.try_emplace(name).first;
+    std::deque<VettedConnection>& queue = client->second.queue;
+    if (queue.size() >= limits_.queued_of_client) return false;
+    if (queue.empty()) client->second.asked = ++turns_;
+    queue.push_back(std::move(connection));
+    ++queued_;
+    return true;
 }
 
 void ConnectionPool::serve_one(std::unique_lock<std::mutex>& lock, Clients::iterator client) {
@@ -152,7 +158,11 @@ void ConnectionPool::serve_one(std::unique_lock<std::mutex>& lock, Clients::iter
     ++client->second.serving;
     Place place(*this, client);
     lock.unlock();
-    serve(std::move(connection), place);
+    try {
+        serve_(std::move(connection), place);
+    } catch (...) {
+        // The connection closes itself; the thread goes on.
+    }
     lock.lock();
     --serving_;
     --client->second.serving;
@@ -163,14 +173,6 @@ void ConnectionPool::serve_one(std::unique_lock<std::mutex>& lock, Clients::iter
 void ConnectionPool::drop_if_idle(Clients::iterator client) {
     const Client& it = client->second;
     if (it.serving == 0 && it.waiting == 0 && it.queue.empty()) clients_.erase(client);
-}
-
-void ConnectionPool::serve(VettedConnection connection, WaitingRoom& room) const {
-    try {
-        serve_(std::move(connection), room);
-    } catch (...) {
-        // The connection closes itself; the thread goes on.
-    }
 }
 
 }  // namespace lastflat::http

@@ -69,7 +69,8 @@ private:
     void work();
     void identify_one(std::unique_lock<std::mutex>& lock);
     void serve_one(std::unique_lock<std::mutex>& lock, Clients::iterator client);
-    void serve(VettedConnection connection, WaitingRoom& room) const;
+    /// False: the client has too many waiting; the connection is untouched.
+    [[nodiscard]] bool queue(VettedConnection& connection, const std::string& name);
     /// Whose turn it is; the end: nobody's.
     [[nodiscard]] Clients::iterator next();
     void drop_if_idle(Clients::iterator client);

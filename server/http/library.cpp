@@ -2,6 +2,8 @@
 #include "server/http/library.h"
 
 #include <httplib.h>
+#include <linux/sockios.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -23,17 +25,19 @@ constexpr std::size_t write_step = 1u << 20;
 /// What the library takes for the connection: it reads the canonical head and writes the answer.
 class HeadStream : public httplib::Stream {
 public:
-    HeadStream(int fd, std::string head, const ServerLimits& limits, const StopTime& stop_time)
+    /// `write_time`: for the whole answer; 0: at once, or not at all.
+    HeadStream(int fd, std::string head, const ServerLimits& limits,
+               std::chrono::milliseconds write_time, const StopTime& stop_time)
         : fd_(fd),
           head_(std::move(head)),
-          limits_(limits),
+          write_time_(write_time),
           stop_time_(stop_time),
           rate_(limits),
-          write_deadline_(Clock::now() + limits.write_time) {}
+          write_deadline_(Clock::now() + write_time) {}
 
     void start_answer() {
         rate_.restart();
-        write_deadline_ = Clock::now() + limits_.write_time;
+        write_deadline_ = Clock::now() + write_time_;
     }
     [[nodiscard]] bool write_failed() const { return write_failed_; }
     [[nodiscard]] std::size_t sent() const { return sent_; }
@@ -54,10 +58,10 @@ public:
             const ssize_t sent = ::send(fd_, bytes + done, size - done, MSG_NOSIGNAL);
             if (sent >= 0) {
                 done += static_cast<std::size_t>(sent);
-                rate_.note(static_cast<std::size_t>(sent));
+                written_ += static_cast<std::size_t>(sent);
+                note_read();
             } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
-                const auto deadline = std::min(write_deadline_, rate_.deadline());
-                write_failed_ = !wait_for(fd_, SocketEvent::writable, deadline, stop_time_);
+                write_failed_ = !wait_until_writable();
             } else if (errno != EINTR) {
                 write_failed_ = true;
             }
@@ -69,14 +73,35 @@ public:
     socket_t socket() const override { return fd_; }
 
 private:
+    /// What the client's side has taken. The kernel says that a socket can be written only once a
+    /// third of megabytes has gone, so a slow client would seem to read nothing for a long time.
+    void note_read() {
+        int waiting = 0;
+        if (::ioctl(fd_, SIOCOUTQ, &waiting) != 0) return;
+        const std::size_t taken = written_ - std::min(written_, static_cast<std::size_t>(waiting));
+        rate_.note(taken - std::min(taken, taken_));
+        taken_ = std::max(taken, taken_);
+    }
+    [[nodiscard]] bool wait_until_writable() {
+        for (;;) {
+            const auto deadline = std::min(write_deadline_, rate_.deadline());
+            if (wait_for(fd_, SocketEvent::writable, deadline, stop_time_)) return true;
+            note_read();
+            const auto now = Clock::now();
+            if (now >= std::min({write_deadline_, rate_.deadline(), stop_time_.get()}))
+                return false;
+        }
+    }
+
     const int fd_;
     const std::string head_;
     std::size_t head_used_ = 0;
-    const ServerLimits& limits_;
+    const std::chrono::milliseconds write_time_;
     const StopTime& stop_time_;
     LeastRate rate_;
     Clock::time_point write_deadline_;
-    std::size_t sent_ = 0;
+    std::size_t sent_ = 0;                 ///< of the answer
+    std::size_t written_ = 0, taken_ = 0;  ///< to the socket; by the client's side
     bool write_failed_ = false;
 };
 
@@ -119,6 +144,11 @@ private:
     const Accept accept_;
 };
 
+/// Its answer is small and no client may make its thread wait: it counts for nobody.
+bool must_hurry(const VettedConnection& connection) {
+    return connection.refused.has_value() || connection.head.route->express;
+}
+
 /// One request on its thread, from the vetted head to the last byte of the answer.
 class Exchange {
 public:
@@ -128,7 +158,9 @@ public:
           answer_(answer),
           body_(connection.socket.fd(), head_, std::move(connection.early_body), limits, all_bodies,
                 stop_time),
-          stream_(connection.socket.fd(), canonical_head(head_), limits, stop_time) {}
+          stream_(connection.socket.fd(), canonical_head(head_), limits,
+                  must_hurry(connection) ? std::chrono::milliseconds(0) : limits.write_time,
+                  stop_time) {}
 
     /// `stays`: whether the connection may serve another request.
     [[nodiscard]] HttpLibrary::Outcome run(bool stays);

@@ -37,8 +37,10 @@ std::vector<BodyPart> parts_of(const Head& head, std::string_view body, std::siz
     return parts;
 }
 
-/// A misspelt parameter would be ignored in silence.
+/// A misspelt parameter would be ignored in silence. OPTIONS has that of the request that a browser
+/// asks about.
 void check_query(const Head& head) {
+    if (head.request.method == "OPTIONS") return;
     const std::vector<std::string>& known = head.route->parameters;
     for (const auto& [name, value] : head.request.query) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;

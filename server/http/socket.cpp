@@ -37,8 +37,8 @@ void prepare_accepted(int fd) {
 }
 
 bool has_hung_up(int fd) {
-    char byte = 0;
-    return ::recv(fd, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
+    pollfd watched{fd, POLLRDHUP, 0};
+    return ::poll(&watched, 1, 0) > 0;
 }
 
 std::string peer_address(int fd) {

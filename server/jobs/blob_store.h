@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <mutex>
+#include <set>
 #include <shared_mutex>
 #include <string>
 #include <string_view>
@@ -31,6 +33,37 @@ public:
     /// While somebody holds one, nothing is removed: from `put` until the blob's name is in a row.
     [[nodiscard]] std::shared_lock<FairGate> pin() const { return std::shared_lock(removal_); }
 
+    /// Blobs that nobody removes while it lives, for those who cannot pin so long.
+    class Holds {
+    public:
+        explicit Holds(const BlobStore& blobs) : blobs_(blobs) {}
+        ~Holds() { clear(); }
+        Holds(const Holds&) = delete;
+        Holds& operator=(const Holds&) = delete;
+        /// While pinned.
+        void add(const std::string& digest) {
+            const std::scoped_lock lock(blobs_.holding_);
+            if (digests_.insert(digest).second) ++blobs_.held_[digest];
+        }
+        [[nodiscard]] bool has(const std::string& digest) const {
+            return digests_.contains(digest);
+        }
+        /// What was held.
+        std::vector<std::string> clear() {
+            const std::scoped_lock lock(blobs_.holding_);
+            for (const std::string& digest : digests_) {
+                if (--blobs_.held_[digest] == 0) blobs_.held_.erase(digest);
+            }
+            std::vector<std::string> digests(digests_.begin(), digests_.end());
+            digests_.clear();
+            return digests;
+        }
+
+    private:
+        const BlobStore& blobs_;
+        std::set<std::string> digests_;
+    };
+
     /// Keeps the bytes and returns their digest; they are on the disk then. They are written even
     /// if they are there already, unless `is_own` says that whoever sends them has them here: the
     /// time that it takes tells nobody what others have.
@@ -53,7 +86,7 @@ public:
         const std::unique_lock lock(removal_);
         std::size_t removed = 0;
         for (const std::string& digest : digests) {
-            if (!is_needed(digest) && remove(digest)) ++removed;
+            if (!is_held(digest) && !is_needed(digest) && remove(digest)) ++removed;
         }
         return removed;
     }
@@ -64,8 +97,14 @@ public:
 
 private:
     virtual bool remove(const std::string& digest) const = 0;
+    [[nodiscard]] bool is_held(const std::string& digest) const {
+        const std::scoped_lock lock(holding_);
+        return held_.contains(digest);
+    }
 
     mutable FairGate removal_;
+    mutable std::mutex holding_;
+    mutable std::map<std::string, int> held_;
 };
 
 }  // namespace lastflat::server

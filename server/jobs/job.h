@@ -13,6 +13,9 @@
 
 namespace lastflat::server {
 
+/// What the server knows a job by. An id is unique among the jobs of its owner alone.
+using JobNumber = std::int64_t;
+
 /// What a job asks for. The model is a blob; the request is the constraint JSON as it was sent.
 struct NewJob {
     std::string id;
@@ -41,6 +44,8 @@ struct BatchRecord {
     std::optional<std::int64_t> finished_ms;  ///< when the last of its jobs ended
     std::size_t size = 0;                     ///< jobs that were taken
     std::map<JobState, std::size_t> states;   ///< of those that are left
+    std::int64_t revision = 0;                ///< changes when one of them does
+    std::optional<JobNumber> unfinished;      ///< the first of them that has not ended
 };
 
 /// One format of a result: a part of the result's blob.
@@ -50,9 +55,6 @@ struct ResultPart {
     std::uint64_t offset = 0, size = 0;
     std::string digest;  ///< SHA-256 of the part
 };
-
-/// What the server knows a job by. An id is unique among the jobs of its owner alone.
-using JobNumber = std::int64_t;
 
 struct JobRecord {
     JobNumber number = 0;

@@ -94,11 +94,12 @@ void JobIntake::refuse_admission(Admission admission) const {
     throw std::logic_error("an admission was refused that is none");
 }
 
-std::string JobIntake::digest_of_model(const Submission& submission, NewJob& job) {
+std::string JobIntake::digest_of_model(const Submission& submission, NewJob& job,
+                                       const BlobStore::Holds* own) {
     if (submission.asset.empty()) {
         job.model_bytes = submission.model.size();
         return blobs_.put(submission.model, [&](const std::string& digest) {
-            return jobs_.has_blob(submission.owner, digest);
+            return (own != nullptr && own->has(digest)) || jobs_.has_blob(submission.owner, digest);
         });
     }
     const auto asset = assets_.find(submission.owner, submission.asset);
@@ -111,8 +112,8 @@ std::string JobIntake::digest_of_model(const Submission& submission, NewJob& job
     return asset->digest;
 }
 
-void JobIntake::complete(const Submission& submission, NewJob& job) {
-    job.model = digest_of_model(submission, job);
+void JobIntake::complete(const Submission& submission, NewJob& job, const BlobStore::Holds* own) {
+    job.model = digest_of_model(submission, job, own);
     job.fingerprint = sha256(job.model + "\n" + submission.cancel_after + "\n" + job.request +
                              webhook_print(job));
 }
@@ -155,7 +156,7 @@ Submitted JobIntake::submit(const Submission& submission) {
     });
 }
 
-void JobIntake::fill(const BatchSubmission& from, NewBatch& batch) {
+void JobIntake::fill(const BatchSubmission& from, NewBatch& batch, BlobStore::Holds& models) {
     std::string prints;
     for (std::size_t i = 0; i < from.size; ++i) {
         Submission submission = from.submission(i);
@@ -163,7 +164,11 @@ void JobIntake::fill(const BatchSubmission& from, NewBatch& batch) {
         submission.owner = batch.owner;
         submission.batch = batch.id;
         NewJob job = new_job(submission);
-        complete(submission, job);
+        {
+            const auto pin = blobs_.pin();
+            complete(submission, job, &models);
+            models.add(job.model);
+        }
         prints += job.fingerprint + "\n";
         batch.jobs.push_back(std::move(job));
     }
@@ -178,15 +183,11 @@ SubmittedBatch JobIntake::submit(const BatchSubmission& submission) {
                                                std::to_string(most) + ", --queue-per-key)");
     return alone_with(submission.owner, submission.idempotency_key, [&]() -> SubmittedBatch {
         NewBatch batch{new_job_id(), submission.owner, {}, submission.idempotency_key, {}};
-        const auto drop_models = [&] {
-            std::vector<std::string> models;
-            for (const NewJob& job : batch.jobs) models.push_back(job.model);
-            drop_unneeded(blobs_, jobs_, models);
-        };
+        BlobStore::Holds models(blobs_);
+        const auto drop_models = [&] { drop_unneeded(blobs_, jobs_, models.clear()); };
         Admitted admitted;
         try {
-            const auto pin = blobs_.pin();
-            fill(submission, batch);
+            fill(submission, batch, models);
             admitted = jobs_.add(batch, limits_.queue);
         } catch (...) {
             drop_models();

@@ -95,10 +95,12 @@ public:
 
 private:
     /// Where the model is kept; its size goes into the job.
-    [[nodiscard]] std::string digest_of_model(const Submission& submission, NewJob& job);
+    [[nodiscard]] std::string digest_of_model(const Submission& submission, NewJob& job,
+                                              const BlobStore::Holds* own);
     /// Keeps the model and says what the job is.
-    void complete(const Submission& submission, NewJob& job);
-    void fill(const BatchSubmission& from, NewBatch& batch);
+    /// `own`: what the same client has brought just now.
+    void complete(const Submission& submission, NewJob& job, const BlobStore::Holds* own = nullptr);
+    void fill(const BatchSubmission& from, NewBatch& batch, BlobStore::Holds& models);
     void check_taking() const;
     /// Calls `take` while no other request with this key is being taken.
     template <class Take>

@@ -11,6 +11,13 @@ namespace lastflat::server {
 namespace {
 
 constexpr int longest_wait_s = 60;
+constexpr std::size_t most_waiting_body = 16u << 20;
+
+std::size_t body_bytes(const http::Request& request) {
+    std::size_t bytes = 0;
+    for (const http::BodyPart& part : request.body) bytes += part.bytes.size();
+    return bytes;
+}
 
 std::string_view next_item(std::string_view& list) {
     const std::size_t end = std::min(list.find(','), list.size());
@@ -99,6 +106,7 @@ http::Response tagged(const http::Request& request, const std::string& etag,
 }
 
 std::optional<int> preferred_wait(const http::Request& request) {
+    if (body_bytes(request) > most_waiting_body) return std::nullopt;
     std::string_view list = request.header("prefer");
     while (!list.empty()) {
         const std::string_view item = next_item(list);

@@ -26,8 +26,9 @@ namespace lastflat::server {
 [[nodiscard]] http::Response tagged(const http::Request& request, const std::string& etag,
                                     http::Response response);
 
-/// `wait=n` of the Prefer header (RFC 7240), at most 60 s; nothing if it is absent or broken:
-/// preferences never fail.
+/// `wait=n` of the Prefer header (RFC 7240), at most 60 s; nothing if it is absent or broken
+/// (preferences never fail), or after a body of more than 16 MiB: it would stay in memory, and in
+/// the share that all bodies have.
 [[nodiscard]] std::optional<int> preferred_wait(const http::Request& request);
 
 }  // namespace lastflat::server

@@ -42,6 +42,8 @@ private:
     bool add_news(std::string& news) {
         try {
             const BatchRecord batch = service_.view.found(request_, id_);
+            if (batch.revision == revision_ && !batch.finished_ms) return true;
+            revision_ = batch.revision;
             for (const JobRecord& job : service_.view.jobs_of(batch)) {
                 auto& seen = seen_[job.number];
                 if (seen == job.revision) continue;
@@ -62,6 +64,7 @@ private:
     const std::string id_;
     const WaitingSeat seat_;
     std::map<JobNumber, std::int64_t> seen_;  ///< revisions that the client has
+    std::int64_t revision_ = 0;               ///< of the batch, then
     bool first_ = true;
     Clock::time_point last_sent_ = Clock::now();
 };

@@ -29,24 +29,16 @@ std::string BatchView::json(const BatchRecord& batch) const {
     return to_json(shown);
 }
 
-void BatchView::wait_for_one(const BatchRecord& batch) const {
-    const auto until = JobWatch::Clock::now() + look_at_batch;
-    for (const JobRecord& job : jobs_of(batch)) {
-        if (is_final(job.state)) continue;
-        JobWatch::Subscription subscription(watch_, job.number);
-        // It may have ended before anybody listened.
-        const auto now = jobs_.find(batch.owner, job.id);
-        if (now && !is_final(now->state)) (void)subscription.wait_until(until);
-        return;
-    }
-}
-
 BatchRecord BatchView::wait(const http::Request& request, BatchRecord batch, int seconds) const {
     const WaitingSeat seat(seats_, request);
     const auto deadline = JobWatch::Clock::now() + std::chrono::seconds(seconds);
     while (seat.is_taken() && !batch.finished_ms && JobWatch::Clock::now() < deadline &&
            !watch_.is_closed() && !request.is_client_gone()) {
-        wait_for_one(batch);
+        // Whatever happens to one of its jobs ends the wait for it; what does not is looked for.
+        JobWatch::Subscription subscription(watch_, batch.unfinished.value_or(0));
+        const BatchRecord now = found(request, batch.id);
+        if (now.revision == batch.revision)
+            (void)subscription.wait_until(JobWatch::Clock::now() + look_at_batch);
         batch = found(request, batch.id);
     }
     return batch;

@@ -29,9 +29,6 @@ public:
                                    int seconds) const;
 
 private:
-    /// Until something happens to the first of its jobs that has not ended, or a short while.
-    void wait_for_one(const BatchRecord& batch) const;
-
     JobStore& jobs_;
     const JobView& view_;
     JobWatch& watch_;

@@ -10,8 +10,6 @@ namespace {
 using http::Request;
 using http::Response;
 
-constexpr std::size_t most_waiting_body = 16u << 20;
-
 /// The job with its result inside.
 Response finished_response(const SubmitServices& service, const JobRecord& job) {
     const api::Job view = service.view.of(job);
@@ -21,18 +19,10 @@ Response finished_response(const SubmitServices& service, const JobRecord& job) 
         200, to_json(view, result_bytes(service.blobs, job, result_part(job, "json", false))));
 }
 
-std::size_t body_bytes(const Request& request) {
-    std::size_t bytes = 0;
-    for (const http::BodyPart& part : request.body) bytes += part.bytes.size();
-    return bytes;
-}
-
 Response submitted_response(const SubmitServices& service, const Request& request,
                             Submitted submitted) {
     JobRecord& job = submitted.job;
-    auto wait = preferred_wait(request);
-    // A large body would stay in memory, and in the share that all bodies have, while it waits.
-    if (body_bytes(request) > most_waiting_body) wait.reset();
+    const auto wait = preferred_wait(request);
     if (wait && !is_final(job.state)) job = service.wait.wait(request, std::move(job), *wait);
     Response response = wait && is_final(job.state) ? finished_response(service, job)
                                                     : job_response(service.view, job, 202);

@@ -15,8 +15,8 @@ public:
     /// `streams`: seats in the room.
     explicit SeatsByKey(std::size_t streams) : free_(streams) {}
 
-    /// False: the key has as many as are left for all others, at most half of all: however many
-    /// keys wait, the next one finds a seat. Without keys, whoever asks may have all.
+    /// False: the key has as many as are left for all others, at most half of all: a few that wait
+    /// for everything leave seats for the next. Without keys, whoever asks may have all.
     [[nodiscard]] bool enter(const std::string& key) {
         const std::scoped_lock lock(mutex_);
         const auto own = seats_.find(key);

@@ -41,11 +41,9 @@ RunTask run_tasks_in_workers(const ProcessLimits& limits, const std::filesystem:
         const auto is_over = [&] { return ends() || call.is_unwanted(); };
         if (!turns->enter(call.owner, is_over))
             return ProcessEnd(Unfinished{Unfinished::Kind::stopped, {}});
+        const ScopeExit leave([&] { turns->leave(call.owner); });
         const std::filesystem::path file = work / ("task-" + new_job_id());
-        const ScopeExit clear([&] {
-            unlink(file.c_str());
-            turns->leave(call.owner);
-        });
+        const ScopeExit clear([&] { unlink(file.c_str()); });
         write_durably(file, call.model);
         WorkOrder order;
         order.task = call.task;

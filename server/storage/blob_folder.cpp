@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <mutex>
@@ -96,7 +97,8 @@ std::string BlobFolder::read(const std::string& digest, std::size_t offset,
 }
 
 void BlobFolder::check() const {
-    const fs::path path = folder_ / "00" / ".check";
+    static std::atomic<unsigned> number{0};  // several may check at once
+    const fs::path path = folder_ / "00" / (".check-" + std::to_string(number++));
     write_durably(path, "a check");
     (void)File(path, O_RDONLY).read(0, 7);
     ::unlink(path.c_str());

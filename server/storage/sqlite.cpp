@@ -35,6 +35,9 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& file, SqliteClock cl
     : file_(file), clock_(std::move(clock)) {
     try {
         writer_ = std::make_unique<SqliteConnection>(file, false);
+        const int version = writer_->database().execAndGet("PRAGMA user_version").getInt();
+        // Damage must not be copied into tables that then look sound.
+        if (version > 0 && version < newest_schema) require_sound();
         migrate(writer_->database());
         identity_ = identity_of(file);
     } catch (const SQLite::Exception& error) {
@@ -44,7 +47,7 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& file, SqliteClock cl
 }
 
 void SqliteDatabase::require_file() const {
-    if (identity_ && identity_of(file_) == identity_) return;
+    if (!identity_ || identity_of(file_) == identity_) return;  // nothing: it is being opened
     throw StoreError("the database " + file_.string() +
                      " was removed or replaced while it is in use; stop the service and put it "
                      "back from a backup");

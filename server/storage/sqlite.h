@@ -121,6 +121,7 @@ public:
     template <class Work>
     auto read(Work work) {
         return timed(false, [&] {
+            require_file();
             auto connection = borrow();
             const ScopeExit at_end([&] { give_back(std::move(connection)); });
             SQLite::Transaction transaction(connection->database());

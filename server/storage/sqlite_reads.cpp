@@ -42,12 +42,18 @@ std::optional<BatchRecord> SqliteStore::find_batch(const std::string& owner,
         Query query(connection.prepared(
             "SELECT created_ms, finished_ms, size FROM batches WHERE owner = ? AND id = ?"));
         if (!query.bind(owner, id).next()) return std::nullopt;
+        Query jobs(connection.prepared(
+            "SELECT sum(revision), min(CASE WHEN finished_ms IS NULL THEN seq END) FROM jobs "
+            "WHERE batch = ? AND batch <> '' AND owner = ?"));
+        if (!jobs.bind(id, owner).next()) return std::nullopt;
         return BatchRecord{id,
                            owner,
                            query.number(0),
                            query.maybe_number(1),
                            static_cast<std::size_t>(query.number(2)),
-                           batch_states(connection, owner, id)};
+                           batch_states(connection, owner, id),
+                           jobs.number(0),
+                           jobs.maybe_number(1)};
     });
 }
 
@@ -66,6 +72,7 @@ JobList SqliteStore::list(const std::string& owner, const JobFilter& filter) {
         query.bind(owner, state, filter.tag, filter.batch, filter.created_after_ms, filter.before,
                    static_cast<std::int64_t>(filter.limit + 1));
         JobList list;
+        std::optional<QueueOrder> order;  // of the whole queue, once, if any of them waits
         std::int64_t last = 0;
         while (query.next()) {
             if (list.jobs.size() == filter.limit) {
@@ -74,8 +81,9 @@ JobList SqliteStore::list(const std::string& owner, const JobFilter& filter) {
             }
             last = query.number(0);
             list.jobs.push_back(record_of(query, retention_));
-            if (list.jobs.back().state == JobState::queued)
-                list.jobs.back().queue_position = queue_position_of(connection, last);
+            if (list.jobs.back().state != JobState::queued) continue;
+            if (!order) order.emplace(connection);
+            list.jobs.back().queue_position = order->position_of(last);
         }
         return list;
     });

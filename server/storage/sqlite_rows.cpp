@@ -88,11 +88,13 @@ bool add_delivery(SqliteConnection& connection, const std::string& owner,
     return Query(connection.prepared(
                      "INSERT INTO deliveries (id, owner, webhook, receiver, event, payload, "
                      "created_ms, next_ms) SELECT ?1, owner, id, receiver, ?4, ?5, ?6, ?6 "
-                     "FROM webhooks WHERE owner = ?2 AND id = ?3 AND "
-                     "(SELECT count(*) FROM deliveries WHERE owner = ?2 AND webhook = ?3 AND "
-                     "next_ms IS NOT NULL) < ?7"))
+                     "FROM webhooks w WHERE owner = ?2 AND id = ?3 AND "
+                     "(SELECT count(*) FROM deliveries INDEXED BY deliveries_by_receiver WHERE "
+                     "owner = ?2 AND receiver = w.receiver AND next_ms IS NOT NULL) < ?7 AND "
+                     "(SELECT count(*) FROM deliveries INDEXED BY deliveries_due WHERE owner = ?2 "
+                     "AND next_ms IS NOT NULL) < ?8"))
                .bind("msg_" + new_job_id(), owner, webhook, type_of(message), to_json(message),
-                     message.at_ms, most_pending)
+                     message.at_ms, most_pending, most_pending_of_owner)
                .run() > 0;
 }
 
@@ -124,7 +126,8 @@ void note_change(SqliteConnection& connection, const JobRow& row) {
 void tell_webhooks(SqliteConnection& connection, const JobRow& row,
                    const api::WebhookMessage& message) {
     Query query(
-        connection.prepared("SELECT id FROM webhooks WHERE owner = ?1 AND job IN ('', ?2) AND "
+        connection.prepared("SELECT id FROM webhooks INDEXED BY webhooks_by_owner WHERE owner = ?1 "
+                            "AND job IN ('', ?2) AND "
                             "instr(' ' || events || ' ', ' ' || ?3 || ' ') > 0"));
     query.bind(row.owner, row.id, type_of(message));
     std::vector<std::string> webhooks;
@@ -172,17 +175,20 @@ void note_batch(SqliteConnection& connection, const JobRow& row) {
         tell_webhooks(connection, row, {now_ms(), api::BatchFinished{row.batch, states}});
 }
 
+void charge_worker(SqliteConnection& connection, const JobRow& row) {
+    if (row.state != JobState::running && row.state != JobState::canceling) return;
+    Query begun(connection.prepared("SELECT started_ms FROM jobs WHERE seq = ?"));
+    if (begun.bind(row.seq).next())
+        charge_job_turn(connection, row.owner, now_ms() - begun.number(0));
+}
+
 void change_state(SqliteConnection& connection, JobRow& row, JobState to,
                   const std::string& reason) {
     if (!may_become(row.state, to)) {
         throw std::logic_error("a job cannot become " + std::string(name(to)) + " from " +
                                std::string(name(row.state)));
     }
-    if (row.state == JobState::running || row.state == JobState::canceling) {
-        Query begun(connection.prepared("SELECT started_ms FROM jobs WHERE seq = ?"));
-        if (to != JobState::canceling && begun.bind(row.seq).next())
-            charge_job_turn(connection, row.owner, now_ms() - begun.number(0));
-    }
+    if (to != JobState::canceling) charge_worker(connection, row);
     row.state = to;
     ++row.revision;
     Query(connection.prepared(

@@ -36,11 +36,14 @@ inline constexpr char record_columns[] =
 void change_state(SqliteConnection& connection, JobRow& row, JobState to,
                   const std::string& reason = {});
 
+/// The worker that the job has, if it has one, is used up to now.
+void charge_worker(SqliteConnection& connection, const JobRow& row);
+
 /// A new job's first state.
 void note_change(SqliteConnection& connection, const JobRow& row);
 
-/// Messages of one webhook that may wait; what comes beyond is dropped.
-inline constexpr int most_pending_messages = 1000;
+/// Messages to one receiver of an owner that may wait, and of all; what comes beyond is dropped.
+inline constexpr int most_pending_messages = 1000, most_pending_of_owner = 10'000;
 
 /// A message to a webhook, to be sent at once. False: there is no such webhook any more, or too
 /// many of its messages wait.

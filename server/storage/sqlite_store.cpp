@@ -165,6 +165,10 @@ void forget_expired(SqliteConnection& connection, const Retention& retention, Sw
                               "ORDER BY seq LIMIT 200) AND created_ms <= ?"))
         .bind(now_ms() - message_memory_ms)
         .run();
+    Query(connection.prepared("DELETE FROM silent_receivers AS r WHERE NOT EXISTS (SELECT 1 FROM "
+                              "deliveries INDEXED BY deliveries_by_receiver WHERE owner = r.owner "
+                              "AND receiver = r.receiver AND next_ms IS NOT NULL)"))
+        .run();
     Query(connection.prepared("DELETE FROM expired WHERE at_ms <= ?"))
         .bind(now_ms() - expired_memory_ms)
         .run();
@@ -309,6 +313,7 @@ std::optional<std::vector<std::string>> SqliteStore::remove(const std::string& o
         [&](SqliteConnection& connection) -> std::optional<std::vector<std::string>> {
             const auto row = find_row(connection, owner, id);
             if (!row) return std::nullopt;
+            charge_worker(connection, *row);
             erase_row(connection, *row);
             std::vector<std::string> blobs{row->model};
             if (!row->result.empty()) blobs.push_back(row->result);

@@ -1,5 +1,7 @@
 #include "server/storage/sqlite_turns.h"
 
+#include <algorithm>
+
 #include "server/support/clock.h"
 
 namespace lastflat::server {
@@ -81,8 +83,32 @@ std::optional<std::string> take_delivery_turn(SqliteConnection& connection, int 
     return owner;
 }
 
-std::size_t queue_position_of(SqliteConnection& connection, std::int64_t job) {
+QueueOrder::QueueOrder(SqliteConnection& connection) {
+    Query query(connection.prepared(
+        "SELECT owner, seq FROM jobs WHERE state = 'queued' ORDER BY owner, priority DESC, seq"));
+    std::string owner;
+    while (query.next()) {
+        if (waiting_.empty() || query.text(0) != owner) {
+            owner = query.text(0);
+            waiting_.push_back(0);
+        }
+        places_[query.number(1)] = {waiting_.size() - 1, ++waiting_.back()};
+    }
+}
+
+std::size_t QueueOrder::position_of(std::int64_t job) const {
+    const auto found = places_.find(job);
+    if (found == places_.end()) return 0;
     // Before the job: those of its owner that come first, and as many of each other owner.
+    std::size_t position = found->second.place;
+    for (std::size_t owner = 0; owner < waiting_.size(); ++owner) {
+        if (owner != found->second.owner)
+            position += std::min(waiting_[owner], found->second.place);
+    }
+    return position;
+}
+
+std::size_t queue_position_of(SqliteConnection& connection, std::int64_t job) {
     Query query(connection.prepared(
         "WITH mine AS (SELECT j.owner, (SELECT count(*) FROM jobs o WHERE o.state = 'queued' "
         "AND o.owner = j.owner AND (o.priority, -o.seq) >= (j.priority, -j.seq)) AS place "

@@ -3,6 +3,8 @@
 
 #include <optional>
 #include <string>
+#include <unordered_map>
+#include <vector>
 
 #include "server/storage/sqlite.h"
 
@@ -20,7 +22,22 @@ void charge_job_turn(SqliteConnection& connection, const std::string& owner, std
 /// whose last turn is longest ago. Nobody has more than `most` of them on the way.
 [[nodiscard]] std::optional<std::string> take_delivery_turn(SqliteConnection& connection, int most);
 
-/// The place of a queued job, from 1, if everybody's jobs take equally long.
+/// The places of queued jobs, from 1, if everybody's jobs take equally long.
+class QueueOrder {
+public:
+    /// Reads the whole queue.
+    explicit QueueOrder(SqliteConnection& connection);
+    /// 0: it does not wait.
+    [[nodiscard]] std::size_t position_of(std::int64_t job) const;
+
+private:
+    struct Place {
+        std::size_t owner = 0, place = 0;
+    };
+    std::vector<std::size_t> waiting_;  ///< how many jobs each owner has
+    std::unordered_map<std::int64_t, Place> places_;
+};
+/// The same for one job.
 [[nodiscard]] std::size_t queue_position_of(SqliteConnection& connection, std::int64_t job);
 
 }  // namespace lastflat::server

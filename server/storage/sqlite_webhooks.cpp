@@ -40,46 +40,57 @@ std::optional<Webhook> find_webhook(SqliteConnection& connection, const std::str
     return webhook_of(query);
 }
 
-/// Of all waiting messages to the receiver of this one.
-constexpr char where_same_receiver[] =
-    " WHERE next_ms IS NOT NULL AND (owner, receiver) = "
-    "(SELECT owner, receiver FROM deliveries WHERE seq = ?1) ";
+/// Who gets the message; nothing: its webhook was deleted.
+std::optional<std::string> receiver_of(SqliteConnection& connection, const Delivery& delivery) {
+    Query query(connection.prepared("SELECT receiver FROM deliveries WHERE seq = ?"));
+    if (!query.bind(delivery.seq).next()) return std::nullopt;
+    return query.text(0);
+}
+
+/// All waiting messages of the owner to the receiver but for one.
+void move_others(SqliteConnection& connection, const std::string& next_ms, const Delivery& one,
+                 const std::string& receiver, std::int64_t ms) {
+    Query(connection.prepared(
+              "UPDATE deliveries INDEXED BY deliveries_by_receiver SET next_ms = " + next_ms +
+              " WHERE owner = ?2 AND receiver = ?3 AND next_ms IS NOT NULL "
+              "AND seq <> ?4 AND lease_until_ms IS NULL"))
+        .bind(ms, one.owner, receiver, one.seq)
+        .run();
+}
 
 /// While a silent receiver is tried, its other messages are not.
-void let_others_wait(SqliteConnection& connection, std::int64_t seq, std::int64_t until_ms) {
-    Query(connection.prepared("UPDATE deliveries SET next_ms = max(next_ms, ?2)" +
-                              std::string(where_same_receiver) +
-                              "AND seq <> ?1 AND (owner, receiver) IN (SELECT owner, receiver FROM "
-                              "silent_receivers)"))
-        .bind(seq, until_ms)
-        .run();
+void let_others_wait(SqliteConnection& connection, const Delivery& one, std::int64_t until_ms) {
+    const auto receiver = receiver_of(connection, one);
+    Query silent(
+        connection.prepared("SELECT 1 FROM silent_receivers WHERE owner = ? AND receiver = ?"));
+    if (!receiver || !silent.bind(one.owner, *receiver).next()) return;
+    move_others(connection, "max(next_ms, ?1)", one, *receiver, until_ms);
 }
 
-void note_silence(SqliteConnection& connection, std::int64_t seq) {
+void note_silence(SqliteConnection& connection, const Delivery& one) {
+    const auto receiver = receiver_of(connection, one);
+    if (!receiver) return;
     Query failures(connection.prepared(
-        "INSERT INTO silent_receivers SELECT owner, receiver, 1 FROM deliveries WHERE seq = ? "
+        "INSERT INTO silent_receivers VALUES (?, ?, 1) "
         "ON CONFLICT DO UPDATE SET failures = failures + 1 RETURNING failures"));
-    if (!failures.bind(seq).next()) return;  // the webhook was deleted meanwhile
+    if (!failures.bind(one.owner, *receiver).next()) return;
     const std::int64_t pause_ms = std::min(
         first_pause_ms << std::min<std::int64_t>(failures.number(0) - 1, 20), longest_pause_ms);
-    Query(connection.prepared("UPDATE deliveries SET next_ms = max(next_ms, ?2)" +
-                              std::string(where_same_receiver)))
-        .bind(seq, now_ms() + pause_ms)
+    const std::int64_t until_ms = now_ms() + pause_ms;
+    Query(connection.prepared("UPDATE deliveries SET next_ms = max(next_ms, ?) WHERE seq = ?"))
+        .bind(until_ms, one.seq)
         .run();
+    move_others(connection, "max(next_ms, ?1)", one, *receiver, until_ms);
 }
 
-void note_answer(SqliteConnection& connection, std::int64_t seq) {
+void note_answer(SqliteConnection& connection, const Delivery& one) {
+    const auto receiver = receiver_of(connection, one);
+    if (!receiver) return;
     const int silent =
-        Query(connection.prepared("DELETE FROM silent_receivers WHERE (owner, receiver) = "
-                                  "(SELECT owner, receiver FROM deliveries WHERE seq = ?)"))
-            .bind(seq)
+        Query(connection.prepared("DELETE FROM silent_receivers WHERE owner = ? AND receiver = ?"))
+            .bind(one.owner, *receiver)
             .run();
-    if (silent == 0) return;
-    Query(connection.prepared("UPDATE deliveries SET next_ms = ?2" +
-                              std::string(where_same_receiver) +
-                              "AND seq <> ?1 AND lease_until_ms IS NULL"))
-        .bind(seq, now_ms())
-        .run();
+    if (silent > 0) move_others(connection, "?1", one, *receiver, now_ms());
 }
 
 }  // namespace
@@ -150,7 +161,7 @@ std::optional<DueDelivery> SqliteWebhooks::claim(std::int64_t lease_ms, int most
                                   "attempt = ?2 WHERE seq = ?3"))
             .bind(until_ms, due.delivery.attempt, due.delivery.seq)
             .run();
-        let_others_wait(connection, due.delivery.seq, until_ms);
+        let_others_wait(connection, due.delivery, until_ms);
         return due;
     });
 }
@@ -163,9 +174,9 @@ void SqliteWebhooks::settle(const Delivery& delivery) {
                   delivery.seq)
             .run();
         if (delivery.status == 0)
-            note_silence(connection, delivery.seq);
+            note_silence(connection, delivery);
         else
-            note_answer(connection, delivery.seq);
+            note_answer(connection, delivery);
         // A list of what was sent, not an archive.
         Query(connection.prepared(
                   "DELETE FROM deliveries WHERE owner = ?1 AND webhook = ?2 AND next_ms IS NULL "

@@ -11,6 +11,8 @@
 #include <mutex>
 #include <string>
 
+#include "server/support/scope_exit.h"
+
 namespace lastflat::server {
 
 /// Whoever waits gets a free place in turn: first who has the fewest, then who was served longest
@@ -23,23 +25,24 @@ public:
     [[nodiscard]] bool enter(const std::string& owner, const std::function<bool()>& ends) {
         std::unique_lock lock(mutex_);
         const auto self = waiting_.insert(waiting_.end(), owner);
+        // Whatever happens: nobody waits behind one who has left.
+        const ScopeExit at_end([&] {
+            waiting_.erase(self);
+            changed_.notify_all();
+        });
         while (free_ == 0 || next() != self) {
             lock.unlock();
-            const bool over = ends();
-            lock.lock();
-            if (over) {
-                waiting_.erase(self);
-                changed_.notify_all();
-                return false;
-            }
+            const bool over = [&] {
+                const ScopeExit again([&] { lock.lock(); });
+                return ends();
+            }();
+            if (over) return false;
             changed_.wait_for(lock, look_every, [&] { return free_ > 0 && next() == self; });
         }
-        waiting_.erase(self);
         --free_;
         Owner& served = owners_[owner];
         ++served.places;
         served.turn = ++turns_;
-        changed_.notify_all();
         return true;
     }
     void leave(const std::string& owner) {

@@ -13,15 +13,17 @@ setup() {
 }
 teardown() { stop_servers; }
 
-# post_batch TAG... : the sample last once for each tag; `broken` is no model.
+# post_batch [--no-wait] TAG... : the sample last once for each tag; `broken` is no model.
 post_batch() {
+    local wait=(-H 'Prefer: wait=60')
+    if [[ $1 == --no-wait ]]; then wait=(); shift; fi
     base64 -w0 "$sample/last.obj" > "$BATS_TEST_TMPDIR/last"
     printf 'v 0 0 0\nf 1 2 3\n' | base64 -w0 > "$BATS_TEST_TMPDIR/broken"
     printf '%s\n' "$@" | jq -Rn --rawfile last "$BATS_TEST_TMPDIR/last" --rawfile broken "$BATS_TEST_TMPDIR/broken" \
         --slurpfile request "$sample/last.request.json" \
         '{jobs: [inputs | . as $tag | {model: {data: (if $tag == "broken" then $broken else $last end)}, request: ($request[0] + {tag: $tag})}]}' \
         > "$BATS_TEST_TMPDIR/batch"
-    ask -H 'Content-Type: application/json' -H 'Prefer: wait=60' --data-binary "@$BATS_TEST_TMPDIR/batch" "$url/v1/jobs:batch"
+    ask -H 'Content-Type: application/json' "${wait[@]}" --data-binary "@$BATS_TEST_TMPDIR/batch" "$url/v1/jobs:batch"
 }
 
 @test "a batch comes back as one archive and one table, what failed beside it" {
@@ -61,10 +63,19 @@ PYTHON
 
 @test "a batch is followed as it happens" {
     start_server --workers 1
-    post_batch a b
+    make_bumpy 120 "$BATS_TEST_TMPDIR/slow.obj"
+    post "$BATS_TEST_TMPDIR/slow.obj"  # keeps the batch waiting
+    post_batch --no-wait a b
     batch=$(jq -r .links.self "$body")
-    curl -sSN "$url$batch/events" > "$BATS_TEST_TMPDIR/events"
-    assert_equal "$(grep -c '^event: job$' "$BATS_TEST_TMPDIR/events")" 2
+    curl -sSN --max-time 60 "$url$batch/events" > "$BATS_TEST_TMPDIR/events" &
+    stream=$!
+    wait_until 5 grep -q '"state":"queued"' "$BATS_TEST_TMPDIR/events"
+    ask -X POST "$url$job/cancel"
+    wait "$stream"
+    states=$(sed -n '/^event: job$/{n;s/^data: //p}' "$BATS_TEST_TMPDIR/events" | jq -r '.tag + " " + .state')
+    for tag in a b; do
+        for state in queued succeeded; do grep -qx "$tag $state" <<< "$states"; done
+    done
     assert_equal "$(grep -A1 '^event: done$' "$BATS_TEST_TMPDIR/events" | sed -n 's/^data: //p' | jq -c .states)" '{"succeeded":2}'
     ask -X POST "$url$batch/cancel"
     assert_problem 409 already_finished

@@ -9,6 +9,7 @@ TEST_SUITE("server/http/client_address") {
         const std::vector<std::string> proxies{"127.0.0.1", "10.0.0.2"};
         CHECK(client_address("203.0.113.9", "198.51.100.7", proxies) == "203.0.113.9");
         CHECK(client_address("127.0.0.1", "198.51.100.7", {}) == "127.0.0.1");
+        CHECK(client_address("::ffff:127.0.0.1", "198.51.100.7", proxies) == "198.51.100.7");
         CHECK(client_address("127.0.0.1", "", proxies) == "127.0.0.1");
         CHECK(client_address("127.0.0.1", "198.51.100.7", proxies) == "198.51.100.7");
         CHECK(client_address("127.0.0.1", "1.2.3.4, 198.51.100.7 ,10.0.0.2", proxies) ==

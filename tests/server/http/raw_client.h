@@ -69,6 +69,13 @@ public:
         return received;
     }
 
+    /// What comes next, at most so many bytes; nothing: the server has closed.
+    std::size_t receive_some(std::size_t bytes) {
+        std::string step(bytes, '\0');
+        const ssize_t got = ::recv(socket_.fd(), step.data(), step.size(), 0);
+        return got > 0 ? static_cast<std::size_t>(got) : 0;
+    }
+
     /// Whether the last `receive` ended because the server closed.
     [[nodiscard]] bool was_closed() const { return closed_; }
 

@@ -242,6 +242,44 @@ TEST_SUITE("server/http/server under load") {
         }
     }
 
+    TEST_CASE(
+        "a client that reads steadily is not too slow, however much the kernel holds for it") {
+        ServerLimits limits;
+        limits.rate_window = milliseconds(300);
+        limits.least_bytes_per_second = 300'000;
+        RunningServer server(limits);
+        RawClient steady(server.port());
+        steady.send(get("/huge"));
+        std::size_t received = 0;
+        while (received < 9'000'000) {  // 3 MB a second
+            const std::size_t got = steady.receive_some(60'000);
+            REQUIRE(got > 0);
+            received += got;
+            std::this_thread::sleep_for(milliseconds(20));
+        }
+    }
+
+    TEST_CASE("those who are refused and do not read make no thread wait") {
+        ServerLimits limits;
+        limits.connections = 2;
+        limits.waiting_requests = 0;
+        RunningServer server(limits);
+        std::string many;
+        for (int i = 0; i < 40'000; ++i)
+            many += "GET /echo HTTP/1.1\r\nHost: a\r\nAuthorization: no\r\n\r\n";
+        std::vector<std::unique_ptr<RawClient>> clients;
+        std::vector<std::thread> senders;
+        for (int i = 0; i < 5; ++i) {
+            clients.push_back(std::make_unique<RawClient>(server.port()));
+            senders.emplace_back([&, client = clients.back().get()] { client->send(many); });
+        }
+        for (std::thread& sender : senders)
+            sender.join();  // the server has closed them, or read all
+        const auto start = Clock::now();
+        CHECK(status_of(ask(server.port(), get("/echo"))) == 200);
+        CHECK(since(start) < milliseconds(5000));
+    }
+
     TEST_CASE("bodies of all requests together are bounded") {
         ServerLimits limits;
         limits.all_bodies_bytes = 1000;

@@ -34,6 +34,7 @@ TEST_SUITE("server/http/server") {
             {get("/echo?a=b"), 200, "GET /echo 127.0.0.1"},
             {get("/echo?a=b&b=a"), 400, "parameter_unknown"},
             {get("/large?a=b"), 400, "parameter_unknown"},
+            {"OPTIONS /large?a=b HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n", 204, ""},
             {get("/echo", "REMOTE_ADDR: 9.9.9.9\r\n"), 200, "GET /echo 127.0.0.1"},
             {"GET /echo HTTP/1.0\r\n\r\n", 200, "GET /echo 127.0.0.1"},
             {post("Content-Length: 0\r\n", ""), 200, "POST /echo 127.0.0.1"},

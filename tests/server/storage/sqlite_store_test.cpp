@@ -66,6 +66,8 @@ TEST_SUITE("server/storage/sqlite_store") {
         CHECK(s.store.find("one", "A5")->queue_position == 9);
         CHECK(s.store.find("three", "C0")->queue_position == 3);
         CHECK(s.store.find("two", "B1")->queue_position == 5);
+        for (const JobRecord& job : s.store.list("", {}).jobs)
+            CHECK(job.queue_position == s.store.find(job.owner, job.id)->queue_position);
         std::string order;
         while (const auto claim = s.store.claim(long_lease)) {
             order += claim->id + " ";
