@@ -1,5 +1,5 @@
-// What a whole batch came to, for a spreadsheet and for programs.
-#include "api/batch.h"
+#include "api/batch_table.h"
+
 #include "api/json.h"
 #include "core/text.h"
 

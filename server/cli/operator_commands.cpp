@@ -16,14 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path database_of(const std::string& data) {
-    return fs::path(data) / "jobs.sqlite";
-}
-
-/// A command that looks must not make what it is to look at.
-void require_data(const std::string& data) {
-    if (!fs::exists(sound_database(data)))
+/// The database; a command that looks must not make what it is to look at.
+fs::path existing_database(const std::string& data) {
+    fs::path database = sound_database(data);
+    if (!fs::exists(database))
         throw StoreError(data + " holds no data of the service; name its folder with --data");
+    return database;
 }
 
 /// Visits all jobs, page by page.
@@ -42,7 +40,7 @@ void for_each_job(SqliteStore& store, Visit visit) {
 class Doctor {
 public:
     explicit Doctor(const std::string& data)
-        : database_(database_of(data)),
+        : database_(existing_database(data)),
           store_(database_, Retention{}),
           blobs_(BlobFolder::Looking{}, fs::path(data) / "blobs") {}
 
@@ -114,16 +112,14 @@ int add_key_command(const std::string& data, const std::string& name) {
 }
 
 int revoke_key_command(const std::string& data, const std::string& id) {
-    require_data(data);
-    SqliteDatabase database(database_of(data));
+    SqliteDatabase database(existing_database(data));
     if (SqliteKeys(database).revoke(id)) return 0;
     std::cerr << "lastflat: there is no key " << id << " that is not revoked yet\n";
     return 2;
 }
 
 int list_keys_command(const std::string& data) {
-    require_data(data);
-    SqliteDatabase database(database_of(data));
+    SqliteDatabase database(existing_database(data));
     for (const ApiKey& key : SqliteKeys(database).list()) {
         std::cout << key.id << "  " << api::rfc3339(key.created_ms) << "  "
                   << (key.revoked_ms ? "revoked" : "good") << "  " << key.name << "\n";
@@ -132,8 +128,7 @@ int list_keys_command(const std::string& data) {
 }
 
 int jobs_command(const std::string& data, const std::string& state, int limit) {
-    require_data(data);
-    SqliteDatabase database(database_of(data));
+    SqliteDatabase database(existing_database(data));
     SqliteStore store(database, Retention{});
     JobFilter filter;
     if (!state.empty()) filter.state = api::value_of(api::job_states, state);
@@ -146,7 +141,6 @@ int jobs_command(const std::string& data, const std::string& state, int limit) {
 }
 
 int doctor_command(const std::string& data) {
-    require_data(data);
     return Doctor(data).examine() == 0 ? 0 : 2;
 }
 

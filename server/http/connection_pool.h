@@ -45,7 +45,7 @@ public:
     /// The answer for a client that has too many connections waiting.
     using Refuse = std::function<Response(const Request&)>;
 
-    /// Starts the threads, which call the three; what `serve` throws is dropped.
+    /// Starts the threads, which call the three; what one throws ends that connection.
     ConnectionPool(const PoolLimits& limits, Identify identify, Serve serve, Refuse refuse);
     ~ConnectionPool() { finish(); }
     ConnectionPool(const ConnectionPool&) = delete;

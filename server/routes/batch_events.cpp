@@ -71,18 +71,7 @@ private:
 
 http::Response events(const BatchEventServices& service, const http::Request& request) {
     (void)service.view.found(request, request.captures.at(0));
-    const auto stream = std::make_shared<BatchStream>(service, request);
-    if (!stream->has_seat())
-        api::refuse(
-            "streams_full",
-            "all event streams and long polls are taken, or this key's share of them (the limit "
-            "--streams); poll the batch");
-    http::Response response;
-    response.media_type = "text/event-stream";
-    response.headers.emplace_back("Cache-Control", "no-store");
-    response.headers.emplace_back("X-Accel-Buffering", "no");
-    response.stream = [stream](const http::Write& write) { return stream->step(write); };
-    return response;
+    return event_response(std::make_shared<BatchStream>(service, request), "batch");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "server/routes/batch_results.h"
 
-#include "api/batch.h"
+#include "api/batch_table.h"
 #include "api/refusal.h"
 #include "api/result_format.h"
 #include "server/jobs/result_parts.h"

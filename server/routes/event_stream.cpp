@@ -127,18 +127,7 @@ http::Response events(const EventServices& service, const http::Request& request
     const std::int64_t seen = last_event(request);
     // What an EventSource asks after the end; this answer keeps it from asking again and again.
     if (is_final(job.state) && seen >= job.revision) return empty_response(204);
-    const auto stream = std::make_shared<EventStream>(service, request, job, seen);
-    if (!stream->has_seat())
-        api::refuse(
-            "streams_full",
-            "all event streams and long polls are taken, or this key's share of them (the limit "
-            "--streams); poll the job");
-    http::Response response;
-    response.media_type = "text/event-stream";
-    response.headers.emplace_back("Cache-Control", "no-store");
-    response.headers.emplace_back("X-Accel-Buffering", "no");
-    response.stream = [stream](const http::Write& write) { return stream->step(write); };
-    return response;
+    return event_response(std::make_shared<EventStream>(service, request, job, seen), "job");
 }
 
 }  // namespace

@@ -2,8 +2,12 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <string>
 #include <string_view>
+
+#include "api/refusal.h"
+#include "server/http/http.h"
 
 namespace lastflat::server {
 
@@ -15,6 +19,23 @@ inline constexpr std::chrono::seconds heartbeat{15};
                                        const std::string& id = {}) {
     return "event: " + std::string(name) + (id.empty() ? "" : "\nid: " + id) + "\ndata: " + data +
            "\n\n";
+}
+
+/// The stream as an answer; `what`: it tells of. Throws: api::Refusal (503) if it has no seat.
+template <class Stream>
+[[nodiscard]] http::Response event_response(std::shared_ptr<Stream> stream,
+                                            const std::string& what) {
+    if (!stream->has_seat())
+        api::refuse("streams_full",
+                    "all event streams and long polls are taken, or this key's share of them (the "
+                    "limit --streams); poll the " +
+                        what);
+    http::Response response;
+    response.media_type = "text/event-stream";
+    response.headers.emplace_back("Cache-Control", "no-store");
+    response.headers.emplace_back("X-Accel-Buffering", "no");
+    response.stream = [stream](const http::Write& write) { return stream->step(write); };
+    return response;
 }
 
 }  // namespace lastflat::server

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "api/batch.h"
+#include "api/batch_table.h"
 #include "api/job_event.h"
 #include "api/object_reader.h"
 #include "api/timestamp.h"

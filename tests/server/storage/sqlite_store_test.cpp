@@ -7,8 +7,6 @@
 #include <thread>
 
 #include "server/storage/sqlite_accounts.h"
-#include "server/storage/sqlite_rows.h"
-#include "server/storage/sqlite_schema.h"
 #include "server/support/clock.h"
 #include "tests/helpers/eventually.h"
 #include "tests/server/storage/test_store.h"
@@ -17,15 +15,10 @@ namespace lastflat::server {
 
 using lastflat::test::eventually;
 using test::failure;
+using test::long_lease;
 using test::new_job;
 using test::success;
 using test::TestStore;
-
-namespace {
-
-constexpr std::int64_t long_lease = 60'000;
-
-}  // namespace
 
 TEST_SUITE("server/jobs/job_state") {
     TEST_CASE("a finished job never changes again") {
@@ -53,95 +46,6 @@ TEST_SUITE("server/storage/sqlite_store") {
         CHECK(s.store.claim(long_lease)->id == "B");
         CHECK_FALSE(s.store.claim(long_lease).has_value());
         CHECK(s.store.counts().running == 2);
-    }
-
-    TEST_CASE("owners take turns, whoever was first and however many jobs they have") {
-        TestStore s;
-        for (int i = 0; i < 6; ++i)
-            REQUIRE(s.add(new_job("A" + std::to_string(i), "one")) == Admission::queued);
-        REQUIRE(s.add(new_job("B0", "two")) == Admission::queued);
-        REQUIRE(s.add(new_job("B1", "two")) == Admission::queued);
-        REQUIRE(s.add(new_job("C0", "three")) == Admission::queued);
-        CHECK(s.store.find("one", "A0")->queue_position == 3);  // at the latest
-        CHECK(s.store.find("one", "A5")->queue_position == 9);
-        CHECK(s.store.find("three", "C0")->queue_position == 3);
-        CHECK(s.store.find("two", "B1")->queue_position == 5);
-        for (const JobRecord& job : s.store.list("", {}).jobs)
-            CHECK(job.queue_position == s.store.find(job.owner, job.id)->queue_position);
-        std::string order;
-        while (const auto claim = s.store.claim(long_lease)) {
-            order += claim->id + " ";
-            REQUIRE(s.store.finish(claim->lease, failure()));
-        }
-        CHECK(order == "A0 C0 B0 A1 B1 A2 A3 A4 A5 ");
-    }
-
-    TEST_CASE("who has fewer jobs running is next") {
-        TestStore s;
-        for (const char* id : {"A0", "A1", "A2"})
-            REQUIRE(s.add(new_job(id, "one")) == Admission::queued);
-        CHECK(s.store.claim(long_lease)->id == "A0");
-        CHECK(s.store.claim(long_lease)->id == "A1");
-        REQUIRE(s.add(new_job("B0", "two")) == Admission::queued);
-        REQUIRE(s.add(new_job("B1", "two")) == Admission::queued);
-        CHECK(s.store.claim(long_lease)->id == "B0");
-        CHECK(s.store.claim(long_lease)->id == "B1");  // one against two
-        CHECK(s.store.claim(long_lease)->id == "A2");
-    }
-
-    TEST_CASE("who has used workers longer waits longer, and who was away has saved nothing up") {
-        TestStore s;
-        for (int i = 0; i < 4; ++i) {
-            REQUIRE(s.add(new_job("A" + std::to_string(i), "one")) == Admission::queued);
-            REQUIRE(s.add(new_job("B" + std::to_string(i), "two")) == Admission::queued);
-        }
-        const auto run_one = [&](std::int64_t ms) {
-            const Claim claim = s.store.claim(long_lease).value();
-            s.database.write([&](SqliteConnection& connection) {
-                Query(
-                    connection.prepared("UPDATE jobs SET started_ms = started_ms - ? WHERE id = ?"))
-                    .bind(ms, claim.id)
-                    .run();
-            });
-            REQUIRE(s.store.finish(claim.lease, failure()));
-            return claim.id;
-        };
-        CHECK(run_one(250) == "A0");
-        CHECK(run_one(0) == "B0");
-        CHECK(run_one(0) == "B1");
-        CHECK(run_one(10'000) == "B2");
-        REQUIRE(s.add(new_job("C0", "three")) == Admission::queued);
-        REQUIRE(s.add(new_job("C1", "three")) == Admission::queued);
-        for (const char* next : {"A1", "C0", "A2", "C1", "A3"}) CHECK(run_one(0) == next);
-        CHECK(run_one(0) == "B3");
-    }
-
-    TEST_CASE("an owner whose jobs are all put off keeps nobody waiting") {
-        TestStore s;
-        REQUIRE(s.add(new_job("A", "one")) == Admission::queued);
-        REQUIRE(s.store.release(s.store.claim(long_lease)->lease, Release::later));
-        REQUIRE(s.add(new_job("B", "two")) == Admission::queued);
-        CHECK(s.store.claim(long_lease)->id == "B");
-        CHECK_FALSE(s.store.claim(long_lease).has_value());
-    }
-
-    TEST_CASE("what somebody waits for goes first among the jobs of its owner, and only there") {
-        TestStore s;
-        const auto asked = [](const char* id, const char* owner, api::JobPriority priority) {
-            NewJob job = new_job(id, owner);
-            job.priority = priority;
-            return job;
-        };
-        using enum api::JobPriority;
-        for (const NewJob& j : {asked("A0", "one", batch), asked("A1", "one", interactive),
-                                asked("A2", "one", interactive), asked("B0", "two", batch)})
-            REQUIRE(s.add(j) == Admission::queued);
-        CHECK(s.store.find("one", "A0")->queue_position == 4);
-        CHECK(s.store.find("one", "A1")->queue_position == 2);
-        CHECK(s.store.find("one", "A0")->priority == batch);
-        std::string order;
-        while (const auto claim = s.store.claim(long_lease)) order += claim->id + " ";
-        CHECK(order == "A1 B0 A2 A0 ");
     }
 
     TEST_CASE("everything of a job survives its end and a new start") {
@@ -469,63 +373,6 @@ TEST_SUITE("server/storage/sqlite_store") {
         CHECK(finished == jobs);
         for (int i = 0; i < jobs; ++i)
             CHECK(s.store.find("", "J" + std::to_string(i))->attempt == 1);
-    }
-
-    TEST_CASE("what an earlier program kept is there in this one") {
-        lastflat::test::TemporaryFolder folder;
-        const auto file = folder.path() / "jobs.sqlite";
-        {
-            SQLite::Database old(file, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-            migrate(old, 3);
-            old.exec(R"sql(
-INSERT INTO jobs (seq, id, owner, tag, batch, state, model, model_bytes, fingerprint, created_ms, request)
-    VALUES (5, 'A', 'key', 't', 'b', 'queued', 'm', 7, 'f', 1, '{}');
-INSERT INTO sqlite_sequence VALUES ('other', 3);
-UPDATE sqlite_sequence SET seq = 9 WHERE name = 'jobs';
-INSERT INTO jobs (seq, id, owner, tag, batch, state, model, model_bytes, fingerprint, created_ms, finished_ms, result, parts, request)
-    VALUES (6, 'R', 'key', '', '', 'succeeded', 'm', 7, 'f', 1, 2, 'blob', '[{"size": 20}, {"size": 3}]', '{}');
-INSERT INTO assets VALUES ('key', 'd', 100, 1);
-INSERT INTO changes VALUES (5, 1, 1, 'queued', 0);
-INSERT INTO idempotency VALUES ('key', 'once', 'f', 'A');
-INSERT INTO expired VALUES ('E', 'key', 1);
-INSERT INTO webhooks VALUES ('W', 'key', 'https://Example.com:8443?x=/y', 's', 'job.failed', 1, '');
-INSERT INTO deliveries (id, webhook, event, payload, created_ms, next_ms)
-    VALUES ('msg', 'W', 'job.failed', '{}', 1, 2);
-)sql");
-        }
-        SqliteDatabase database(file);
-        SqliteStore store(database, {});
-        const JobRecord job = store.find("key", "A").value();
-        CHECK(job.batch == "b");
-        CHECK(job.model_bytes == 7);
-        CHECK(job.priority == api::JobPriority::interactive);
-        CHECK(store.find_batch("key", "b")->size == 1);
-        CHECK(store.history(job.number, 0).size() == 1);
-        CHECK(store.is_expired("key", "E"));
-        NewJob again = new_job("other", "key");
-        again.idempotency_key = "once";
-        again.fingerprint = "f";
-        CHECK(store.add(again, {}).admission == Admission::repeated);
-        again.idempotency_key.clear();
-        REQUIRE(store.add(again, {}).admission == Admission::queued);
-        CHECK(store.find("key", "other")->number == 10);  // numbers are never given twice
-        CHECK(store.claim(long_lease)->id == "A");
-        const std::string receiver = database.read([](SqliteConnection& connection) {
-            Query query(connection.prepared("SELECT receiver FROM deliveries WHERE owner = 'key'"));
-            return query.next() ? query.text(0) : "";
-        });
-        CHECK(receiver == "https://example.com:8443");
-        const auto bytes = database.read(
-            [](SqliteConnection& connection) { return bytes_kept(connection, "key"); });
-        CHECK(bytes == 7 + 20 + 3 + 100);
-    }
-
-    TEST_CASE("a database of a newer program is left alone") {
-        lastflat::test::TemporaryFolder folder;
-        { SqliteDatabase database(folder.path() / "jobs.sqlite"); }
-        SQLite::Database(folder.path() / "jobs.sqlite", SQLite::OPEN_READWRITE)
-            .exec("PRAGMA user_version=99");
-        CHECK_THROWS_AS(SqliteDatabase(folder.path() / "jobs.sqlite"), StoreError);
     }
 }
 

@@ -6,6 +6,8 @@
 
 namespace lastflat::server::test {
 
+constexpr std::int64_t long_lease = 60'000;
+
 inline NewJob new_job(const std::string& id, const std::string& owner = "") {
     NewJob job;
     job.id = id;
