@@ -1,10 +1,9 @@
 #include "api/flatten_result.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
+#include "api/geometry_text.h"
 #include "api/json.h"
 #include "api/problem_of.h"
 #include "api/request_words.h"
@@ -104,42 +103,7 @@ Json report_json(const StretchReport& s) {
     return json;
 }
 
-/// The vertices of a region as the model knows them.
-class Sources {
-public:
-    Sources(const FlattenResult& result, const Region& region) : result_(result), region_(region) {}
-
-    /// The id in the file; nothing: a curve made it.
-    [[nodiscard]] std::optional<Index> file_vertex(Index vertex) const {
-        const Index source = region_.source_vertices[at(vertex)];
-        return at(source) < uncurved() ? std::optional(of_file(source)) : std::nullopt;
-    }
-    /// Of a vertex that a curve made: the vertices of the file between which it lies.
-    [[nodiscard]] SurfacePoint made_at(Index vertex) const {
-        SurfacePoint made =
-            result_.added_vertices[at(region_.source_vertices[at(vertex)]) - uncurved()];
-        for (Index& corner : made.corners) {
-            if (corner >= 0) corner = of_file(corner);
-        }
-        return made;
-    }
-
-private:
-    /// How many vertices there were before any curve.
-    [[nodiscard]] std::size_t uncurved() const {
-        return result_.file_vertices + result_.vertex_copies.size();
-    }
-    [[nodiscard]] Index of_file(Index id) const {
-        return at(id) < result_.file_vertices
-                   ? id
-                   : result_.vertex_copies[at(id) - result_.file_vertices];
-    }
-
-    const FlattenResult& result_;
-    const Region& region_;
-};
-
-Json fan_json(const FlatRegion& flat, const Sources& sources) {
+Json fan_json(const FlatRegion& flat, const SourceIds& sources) {
     const GeodesicFan& fan = *flat.fan;
     Json spokes = Json::array();
     for (std::size_t i = 0; i < fan.spokes.size(); ++i) {
@@ -147,7 +111,7 @@ Json fan_json(const FlatRegion& flat, const Sources& sources) {
                           {"angle_deg", degrees(fan.spokes[i].angle)},
                           {"distance_mm", fan.spokes[i].distance}});
     }
-    const auto centre = sources.file_vertex(fan.centre);
+    const auto centre = sources.file_vertex(flat.region.source_vertices[at(fan.centre)]);
     return {{"centre_vertex", centre ? Json(*centre) : Json()},
             {"a_1_mm", fan.mean_distance},
             {"a_inf_mm", fan.greatest_distance},
@@ -155,99 +119,7 @@ Json fan_json(const FlatRegion& flat, const Sources& sources) {
             {"spokes", std::move(spokes)}};
 }
 
-// What grows with the mesh is written by hand: as JSON values it would take several times as long,
-// which is a tenth of the time of a small job.
-
-void append(std::string& text, double value) {
-    if (!std::isfinite(value)) {
-        text += "null";
-        return;
-    }
-    std::array<char, 32> digits;
-    text.append(digits.data(),
-                std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
-}
-
-void append(std::string& text, Index value) {
-    text += std::to_string(value);
-}
-
-template <int size>
-void append(std::string& text, const Eigen::Matrix<double, size, 1>& point) {
-    for (Eigen::Index i = 0; i < size; ++i) {
-        text += i == 0 ? '[' : ',';
-        append(text, point[i]);
-    }
-    text += ']';
-}
-
-void append(std::string& text, const Triangle& triangle) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        text += i == 0 ? '[' : ',';
-        append(text, triangle[i]);
-    }
-    text += ']';
-}
-
-void append(std::string& text, const OutlineLoop& loop);
-
-template <class Item>
-void append(std::string& text, const std::vector<Item>& list) {
-    text += '[';
-    for (const Item& item : list) {
-        append(text, item);
-        text += ',';
-    }
-    if (text.back() == ',') text.pop_back();
-    text += ']';
-}
-
-void append(std::string& text, const OutlineLoop& loop) {
-    Json segments = Json::array();
-    for (const OutlineSegment& s : loop.segments)
-        segments.push_back({{"curve", s.curve}, {"first", s.first}, {"last", s.last}});
-    text += "{\"points_mm\":";
-    append(text, loop.points);
-    text += ",\"segments\":" + text_of(segments) + "}";
-}
-
-/// The way back to the model: ids of the file, and points between them for vertices that curves
-/// made.
-void append_sources(std::string& text, const Region& region, const Sources& sources) {
-    std::string points;
-    text += ",\"source_vertices\":[";
-    for (Index v = 0; at(v) < region.source_vertices.size(); ++v) {
-        const auto file_vertex = sources.file_vertex(v);
-        text += (file_vertex ? std::to_string(*file_vertex) : "null") + ",";
-        if (file_vertex) continue;
-        const SurfacePoint made = sources.made_at(v);
-        points += "{\"vertex\":" + std::to_string(v) + ",\"triangle\":";
-        append(points, made.corners);
-        points += ",\"weights\":";
-        append(points, made.weights);
-        points += "},";
-    }
-    if (text.back() == ',') text.pop_back();
-    if (!points.empty()) points.pop_back();
-    text += "],\"source_points\":[" + points + "]";
-}
-
-/// The members of an object.
-std::string geometry_text(const FlatRegion& flat, const Sources& sources) {
-    std::string text = "\"uv_mm\":";
-    append(text, flat.chart.uv);
-    text += ",\"triangles\":";
-    append(text, flat.region.triangles);
-    append_sources(text, flat.region, sources);
-    text += ",\"outline\":";
-    append(text, flat.outline);
-    text += ",\"holes\":";
-    append(text, flat.outline.holes);
-    return text;
-}
-
 std::string region_text(const FlattenResult& result, const FlatRegion& flat, bool with_geometry) {
-    const Sources sources(result, flat.region);
     Json json{{"name", flat.region.name},
               {"method", word_of(method_words, result.plan.request.method.name)}};
     json["curves"] = Json::array();
@@ -258,10 +130,10 @@ std::string region_text(const FlattenResult& result, const FlatRegion& flat, boo
     if (flat.energy) json["energy"] = *flat.energy;
     if (flat.projected_gradient) json["projected_gradient"] = *flat.projected_gradient;
     if (!with_geometry) return text_of(json);
-    if (flat.fan) json["fan"] = fan_json(flat, sources);
+    if (flat.fan) json["fan"] = fan_json(flat, result.sources);
     std::string text = text_of(json);
     text.pop_back();
-    return text + "," + geometry_text(flat, sources) + "}";
+    return text + "," + geometry_text(flat, result.sources) + "}";
 }
 
 Json layout_json(const FlattenResult& result) {
@@ -312,8 +184,8 @@ Json rest_of(const FlattenResult& result, const std::string& version, bool with_
     document["warnings"] = json_of(result.warnings);
     document["repairs"] = json_of(result.repairs);
     if (result.plan.landmarks && with_geometry) document["found"] = json_of(result.plan);
-    if (!result.added_vertices.empty()) {
-        document["added_vertices"] = {{"count", result.added_vertices.size()},
+    if (!result.sources.added.empty()) {
+        document["added_vertices"] = {{"count", result.sources.added.size()},
                                       {"smallest_angle_deg", degrees(result.smallest_added_angle)}};
     }
     const Timing& t = result.timing;
@@ -333,7 +205,9 @@ std::string document_of(const FlattenResult& result, const std::string& version,
         if (text.back() == '}') text += ',';
         text += region_text(result, flat, with_geometry);
     }
-    return text + "]," + text_of(rest_of(result, version, with_geometry)).substr(1);
+    text += ']';
+    if (with_geometry) text += ',' + model_text(result);
+    return text + ',' + text_of(rest_of(result, version, with_geometry)).substr(1);
 }
 
 }  // namespace

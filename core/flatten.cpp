@@ -171,10 +171,8 @@ FlattenResult measured(Prepared prepared, Solution solution, double layout_gap_m
     result.featherlines = std::move(prepared.featherlines);
     result.asked = std::move(prepared.constraints);
     result.warnings = std::move(prepared.warnings);
-    result.added_vertices = std::move(prepared.added_vertices);
+    result.sources = std::move(prepared.sources);
     result.smallest_added_angle = prepared.smallest_added_angle;
-    result.file_vertices = prepared.file_vertices;
-    result.vertex_copies = std::move(prepared.vertex_copies);
     result.repairs = std::move(prepared.repairs);
     std::vector<Region>& regions = prepared.regions;
     std::vector<Chart> charts(regions.size());

@@ -80,9 +80,7 @@ Prepared prepare(SurfaceMesh surface, Plan plan, Progress& progress) {
     }
     prepared.plan = std::move(plan);
     prepared.regions = std::move(cut.regions);
-    prepared.file_vertices = surface.welded_to.size() - surface.copies.size();
-    prepared.vertex_copies = std::move(surface.copies);
-    prepared.added_vertices = std::move(cut.inserted.added);
+    prepared.sources = SourceIds(surface, std::move(cut.inserted.added));
     prepared.smallest_added_angle = cut.inserted.smallest_angle;
     prepared.repairs = std::move(surface.repairs);
     return prepared;

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/cut/cut_surface.h"
+#include "core/cut/source_ids.h"
 #include "core/measure/featherline.h"
 
 namespace lastflat {
@@ -33,10 +34,7 @@ struct Prepared {
     std::vector<Region> regions;
     std::vector<Constraint> constraints;  ///< the plan's, and one for every seam
     std::vector<FeatherlineSide> featherlines;
-    std::size_t file_vertices = 0;
-    std::vector<Index> vertex_copies;  ///< as in `SurfaceMesh`; their ids follow those of the file
-    /// Vertices that curves made, in the order of their ids, which follow those of the copies.
-    std::vector<SurfacePoint> added_vertices;
+    SourceIds sources;
     double smallest_added_angle = 0.0;  ///< of the triangles that curves made; radians
     std::vector<Warning> warnings;
     std::vector<Repair> repairs;  ///< what was changed in the model before

@@ -1,6 +1,7 @@
 // What a flattening comes to.
 #pragma once
 
+#include "core/cut/source_ids.h"
 #include "core/fan/geodesic_fan.h"
 #include "core/layout/sheet.h"
 #include "core/measure/report.h"
@@ -35,12 +36,9 @@ struct FlattenResult {
     std::vector<ConstraintReport> constraints;  ///< of what was asked
     Sheet sheet;
     std::vector<Warning> warnings;
-    std::vector<Index> vertex_copies;  ///< as in `SurfaceMesh`; their ids follow those of the file
-    /// Vertices that curves made, in the order of their ids, which follow those of the copies.
-    std::vector<SurfacePoint> added_vertices;
+    SourceIds sources;
     double smallest_added_angle = 0.0;  ///< of the triangles that curves made; radians
-    std::size_t file_vertices = 0;
-    std::vector<Repair> repairs;  ///< what was changed in the model before
+    std::vector<Repair> repairs;        ///< what was changed in the model before
     Timing timing;
 };
 

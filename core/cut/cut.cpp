@@ -174,6 +174,7 @@ Region extract(const SurfaceMesh& surface, const Pieces& pieces, Index piece) {
                                3 * region.triangles.size() + i});
         }
         region.triangles.emplace_back();
+        region.source_triangles.push_back(surface.origins[f].triangle);
     }
     std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
         if (a.source != b.source) return a.source < b.source;

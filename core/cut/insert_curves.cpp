@@ -63,7 +63,13 @@ public:
             users_[std::minmax(path[i - 1], path[i])].insert(number);
     }
 
-    InsertedCurves finish() { return {std::move(curves_), std::move(added_), smallest_angle()}; }
+    /// The surface's new faces take over the origins of those that they are parts of.
+    InsertedCurves finish(SurfaceMesh& surface) {
+        std::vector<FaceOrigin> origins;
+        for (const Index old : old_face_) origins.push_back(surface.origins[at(old)]);
+        surface.origins = std::move(origins);
+        return {std::move(curves_), std::move(added_), smallest_angle()};
+    }
 
 private:
     [[nodiscard]] SurfacePoint point_of(Index vertex) const {
@@ -370,7 +376,7 @@ SurfacePoint on_old_vertices(const SurfacePoint& point, Index first,
 InsertedCurves insert_curves(SurfaceMesh& surface, const std::vector<SurfaceLine>& lines) {
     Insertion insertion(surface);
     for (const SurfaceLine& line : lines) insertion.add(line);
-    return insertion.finish();
+    return insertion.finish(surface);
 }
 
 InsertedCurves insert_more_curves(SurfaceMesh& surface, InsertedCurves before,

@@ -22,7 +22,8 @@ struct Region : Triangulation {
     std::string name;
     std::vector<Index> border;                ///< the outer loop: counter-clockwise
     std::vector<std::vector<Index>> holes{};  ///< all other loops: clockwise
-    std::vector<Index> source_vertices;       ///< per vertex, its id in the file
+    std::vector<Index> source_vertices;       ///< per vertex, its id (`SourceIds`)
+    std::vector<Index> source_triangles{};    ///< per triangle, `FaceOrigin::triangle`
     std::vector<CurveRun> runs;
     HalfEdges half_edges;
 

@@ -127,20 +127,20 @@ void replace_faces(SurfaceMesh& surface, const Found& found) {
     Points3 positions;
     for (const auto v : surface.mesh.vertices()) positions.push_back(surface.position(v.idx()));
     std::vector<Triangle> triangles;
-    std::vector<std::uint32_t> labels;
+    std::vector<FaceOrigin> origins;
     for (std::size_t f = 0; f < gone.size(); ++f) {
         if (gone[f]) continue;
         triangles.push_back(corners_of(surface, static_cast<Index>(f)));
-        labels.push_back(surface.face_labels[f]);
+        origins.push_back(surface.origins[f]);
     }
     for (std::size_t i = 0; i < features.size(); ++i) {
         for (const Triangle& t : fillings[i].triangles) {
             triangles.push_back(t);
-            labels.push_back(surface.face_labels[at(features[i].faces.front())]);
+            origins.push_back(surface.origins[at(features[i].faces.front())].filling_beside());
         }
     }
     surface.mesh = build_mesh(positions, triangles);
-    surface.face_labels = std::move(labels);
+    surface.origins = std::move(origins);
 }
 
 void note(SurfaceMesh& surface, const Found& found) {

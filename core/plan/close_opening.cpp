@@ -46,14 +46,15 @@ Points3 positions_of(const SurfaceMesh& surface, const std::vector<OpenMesh::Ver
 void fill(SurfaceMesh& surface, const std::vector<OpenMesh::VertexHandle>& rim) {
     const auto beside =
         surface.mesh.opposite_halfedge_handle(surface.mesh.find_halfedge(rim[0], rim[1]));
-    const std::uint32_t label = surface.face_labels[at(surface.mesh.face_handle(beside).idx())];
+    const FaceOrigin origin =
+        surface.origins[at(surface.mesh.face_handle(beside).idx())].filling_beside();
     const auto filling =
         least_area_triangles(positions_of(surface, rim), [&](std::size_t i, std::size_t j) {
             return surface.mesh.find_halfedge(rim[i], rim[j]).is_valid();
         });
     for (const Triangle& t : filling) {
         surface.mesh.add_face(rim[at(t[0])], rim[at(t[1])], rim[at(t[2])]);
-        surface.face_labels.push_back(label);
+        surface.origins.push_back(origin);
     }
 }
 

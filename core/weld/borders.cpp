@@ -53,7 +53,7 @@ void insert_into_edges(Faces& faces, const Insertions& insertions) {
         Index from = edge.first;
         for (const Index vertex : inserted) {
             faces.triangles.push_back({from, vertex, apex});
-            faces.labels.push_back(faces.labels[t]);
+            faces.origins.push_back(faces.origins[t]);
             file(faces.triangles.size() - 1);
             from = vertex;
         }

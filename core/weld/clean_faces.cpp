@@ -148,8 +148,8 @@ bool remove_caps(Faces& faces, RepairNote& note) {
         neighbour[corner] = middle;
         other[(corner + 1) % 3] = middle;
         faces.triangles[static_cast<std::size_t>(cap)] = other;
-        faces.labels[static_cast<std::size_t>(cap)] =
-            faces.labels[static_cast<std::size_t>(side->triangle)];
+        faces.origins[static_cast<std::size_t>(cap)] =
+            faces.origins[static_cast<std::size_t>(side->triangle)];
     }
     return true;
 }

@@ -1,6 +1,7 @@
 // Faces that are no part of any surface.
 #pragma once
 
+#include "core/weld/face_origin.h"
 #include "core/weld/repair.h"
 
 namespace lastflat {
@@ -10,7 +11,7 @@ namespace lastflat {
 struct Faces {
     Points3 positions;
     std::vector<Triangle> triangles;
-    std::vector<std::uint32_t> labels;  ///< per triangle
+    std::vector<FaceOrigin> origins;  ///< per triangle
     std::vector<Index> welded_to;
     std::vector<Index> copies{};  ///< per copy, whose
 
@@ -26,10 +27,10 @@ struct Faces {
         for (std::size_t t = 0; t < triangles.size(); ++t) {
             if (!keep(triangles[t])) continue;
             triangles[kept] = triangles[t];
-            labels[kept++] = labels[t];
+            origins[kept++] = origins[t];
         }
         triangles.resize(kept);
-        labels.resize(kept);
+        origins.resize(kept);
     }
 };
 

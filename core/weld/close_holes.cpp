@@ -65,16 +65,16 @@ Vec3 middle_of(const Faces& faces, const Loop& loop) {
     return sum / static_cast<double>(loop.size());
 }
 
-/// The label of the face beside the loop's first edge.
-std::uint32_t label_beside(const Faces& faces, const Loop& loop) {
+/// Of the face beside the loop's first edge.
+FaceOrigin origin_beside(const Faces& faces, const Loop& loop) {
     for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
         const Triangle& triangle = faces.triangles[t];
         for (std::size_t i = 0; i < 3; ++i) {
             if (triangle[i] == loop.vertex(0) && triangle[(i + 1) % 3] == loop.vertex(1))
-                return faces.labels[t];
+                return faces.origins[t];
         }
     }
-    return 0;
+    return {0, -1};
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ void close_small_holes(Faces& faces, std::vector<Repair>& repairs) {
     for (const Side& side : sides_by_edge(faces.triangles)) edges.emplace(side.low, side.high);
     Repair repair{"holes_closed", "", loops.size()};
     for (const Loop& loop : loops) {
-        const std::uint32_t label = label_beside(faces, loop);
+        const FaceOrigin origin = origin_beside(faces, loop).filling_beside();
         Points3 corners;
         for (const Index v : loop.vertices) corners.push_back(faces.position(v));
         const auto filling = least_area_triangles(corners, [&](std::size_t i, std::size_t j) {
@@ -103,7 +103,7 @@ void close_small_holes(Faces& faces, std::vector<Repair>& repairs) {
         for (const Triangle& t : filling) {
             faces.triangles.push_back(
                 {loop.vertices[at(t[0])], loop.vertices[at(t[2])], loop.vertices[at(t[1])]});
-            faces.labels.push_back(label);
+            faces.origins.push_back(origin);
         }
         if (repair.positions.size() == Repair::most_listed) continue;
         repair.positions.push_back(middle_of(faces, loop));

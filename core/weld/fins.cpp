@@ -43,7 +43,7 @@ void drop_fins(Faces& faces, std::vector<Repair>& repairs) {
     });
     RepairNote note;
     std::vector<Triangle> kept;
-    std::vector<std::uint32_t> labels;
+    std::vector<FaceOrigin> origins;
     for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
         const Index patch = patches.find(static_cast<Index>(t));
         if (open.contains(patch) && too_many.contains(patch)) {
@@ -51,11 +51,11 @@ void drop_fins(Faces& faces, std::vector<Repair>& repairs) {
             continue;
         }
         kept.push_back(faces.triangles[t]);
-        labels.push_back(faces.labels[t]);
+        origins.push_back(faces.origins[t]);
     }
     if (note.count() == 0) return;
     faces.triangles = std::move(kept);
-    faces.labels = std::move(labels);
+    faces.origins = std::move(origins);
     note.write(repairs, "fins_dropped",
                "triangles that stood on edges of two others were left out");
 }

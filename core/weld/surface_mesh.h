@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/numerics/types.h"
+#include "core/weld/face_origin.h"
 #include "core/weld/repair.h"
 
 namespace lastflat {
@@ -48,8 +49,9 @@ struct SurfaceMesh {
     std::vector<Warning> warnings;
     std::vector<Repair> repairs;
     double unit_mm = 1.0;                              ///< one unit of the model
+    std::size_t file_triangles = 0;                    ///< of the model
     std::vector<std::vector<std::string>> label_sets;  ///< as in `RawMesh`
-    std::vector<std::uint32_t> face_labels;            ///< per face of the mesh
+    std::vector<FaceOrigin> origins;                   ///< per face of the mesh
     /// Labels of faces that take no part, beside the border: by the border's half-edge, from, to.
     std::map<std::pair<Index, Index>, std::uint32_t> labels_beyond;
     std::vector<ModelLine> lines;
@@ -58,7 +60,7 @@ struct SurfaceMesh {
     /// The label of the face to the left of a half-edge, whether it takes part or not.
     [[nodiscard]] std::optional<std::uint32_t> label_at(OpenMesh::HalfedgeHandle h) const {
         if (!mesh.is_boundary(h))
-            return face_labels[static_cast<std::size_t>(mesh.face_handle(h).idx())];
+            return origins[static_cast<std::size_t>(mesh.face_handle(h).idx())].label;
         const auto beyond =
             labels_beyond.find({mesh.from_vertex_handle(h).idx(), mesh.to_vertex_handle(h).idx()});
         if (beyond == labels_beyond.end()) return std::nullopt;

@@ -204,12 +204,13 @@ void select_faces(const RawMesh& raw, const WeldOptions& options, Faces& faces,
     Faces chosen{faces.positions, {}, {}, faces.welded_to, faces.copies};
     for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
         const Triangle& triangle = faces.triangles[t];
-        if (wanted[faces.labels[t]]) {
+        if (wanted[faces.origins[t].label]) {
             chosen.triangles.push_back(triangle);
-            chosen.labels.push_back(faces.labels[t]);
+            chosen.origins.push_back(faces.origins[t]);
         } else {
             for (std::size_t i = 0; i < 3; ++i)
-                surface.labels_beyond[{triangle[i], triangle[(i + 1) % 3]}] = faces.labels[t];
+                surface.labels_beyond[{triangle[i], triangle[(i + 1) % 3]}] =
+                    faces.origins[t].label;
         }
     }
     surface.label_sets = raw.label_sets;
@@ -277,7 +278,8 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options, HoleRule holes,
     check_coordinates(faces.positions);
     (void)selected_labels(raw, options.groups);  // a wrong name is said before anything else
     faces.triangles = raw.triangles;
-    faces.labels = raw.triangle_labels;
+    for (std::size_t t = 0; t < raw.triangles.size(); ++t)
+        faces.origins.push_back({raw.triangle_labels[t], static_cast<Index>(t)});
     merge_coincident(raw, options, faces, result.repairs);
     check_size(raw, faces, limits);
     mend(raw, options, holes, faces, result.repairs);
@@ -290,7 +292,8 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options, HoleRule holes,
     check_shapes(faces);
     check_manifold(faces.positions, faces.triangles);
     result.mesh = build_mesh(faces.positions, faces.triangles);
-    result.face_labels = faces.labels;
+    result.origins = std::move(faces.origins);
+    result.file_triangles = raw.triangles.size();
     scale_lines(raw, result);
     result.welded_to = std::move(faces.welded_to);
     result.copies = std::move(faces.copies);

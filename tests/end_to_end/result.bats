@@ -44,7 +44,7 @@ PYTHON
     ask "$url$job/metrics"
     assert_equal "$status" 200
     fields "$body" > fields
-    grep -vE '^/(layout|regions/\*/(uv_mm|triangles|source_vertices|source_points|outline|holes|fan))(/|$)' \
+    grep -vE '^/(model|layout|regions/\*/(uv_mm|triangles|source_vertices|source_points|source_triangles|outline|holes|fan))(/|$)' \
         "$BATS_TEST_DIRNAME/result_fields.txt" | diff - fields
 }
 

@@ -1,0 +1,144 @@
+#include "api/geometry_text.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "api/json.h"
+
+namespace lastflat::api {
+namespace {
+
+// What grows with the mesh is written by hand: as JSON values it would take several times as long,
+// which is a tenth of the time of a small job.
+
+void append(std::string& text, double value) {
+    if (!std::isfinite(value)) {
+        text += "null";
+        return;
+    }
+    std::array<char, 32> digits;
+    text.append(digits.data(),
+                std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+}
+
+void append(std::string& text, Index value) {
+    text += std::to_string(value);
+}
+
+template <int size>
+void append(std::string& text, const Eigen::Matrix<double, size, 1>& point) {
+    for (Eigen::Index i = 0; i < size; ++i) {
+        text += i == 0 ? '[' : ',';
+        append(text, point[i]);
+    }
+    text += ']';
+}
+
+void append(std::string& text, const Triangle& triangle) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        text += i == 0 ? '[' : ',';
+        append(text, triangle[i]);
+    }
+    text += ']';
+}
+
+void append(std::string& text, const OutlineLoop& loop);
+
+template <class Item>
+void append(std::string& text, const std::vector<Item>& list) {
+    text += '[';
+    for (const Item& item : list) {
+        append(text, item);
+        text += ',';
+    }
+    if (text.back() == ',') text.pop_back();
+    text += ']';
+}
+
+void append(std::string& text, const OutlineLoop& loop) {
+    Json segments = Json::array();
+    for (const OutlineSegment& s : loop.segments)
+        segments.push_back({{"curve", s.curve}, {"first", s.first}, {"last", s.last}});
+    text += "{\"points_mm\":";
+    append(text, loop.points);
+    text += ",\"segments\":" + text_of(segments) + "}";
+}
+
+/// Numbers that may be missing.
+void append_or_null(std::string& text, const std::vector<std::optional<Index>>& ids) {
+    text += '[';
+    for (const auto& id : ids) text += (id ? std::to_string(*id) : "null") + ",";
+    if (text.back() == ',') text.pop_back();
+    text += ']';
+}
+
+/// The way back to the model: ids of the file, and points between them for vertices that curves
+/// made.
+void append_sources(std::string& text, const Region& region, const SourceIds& sources) {
+    std::vector<std::optional<Index>> vertices, triangles;
+    std::string points;
+    for (Index v = 0; at(v) < region.source_vertices.size(); ++v) {
+        const Index id = region.source_vertices[at(v)];
+        vertices.push_back(sources.file_vertex(id));
+        if (vertices.back()) continue;
+        const SurfacePoint made = sources.made_at(id);
+        points += "{\"vertex\":" + std::to_string(v) + ",\"triangle\":";
+        append(points, made.corners);
+        points += ",\"weights\":";
+        append(points, made.weights);
+        points += "},";
+    }
+    for (const Index t : region.source_triangles)
+        triangles.push_back(t < 0 ? std::nullopt : std::optional(t));
+    if (!points.empty()) points.pop_back();
+    text += ",\"source_vertices\":";
+    append_or_null(text, vertices);
+    text += ",\"source_points\":[" + points + "],\"source_triangles\":";
+    append_or_null(text, triangles);
+}
+
+/// Vertices of the file that lie at more than one place of the pattern.
+Json seam_vertices(const FlattenResult& result) {
+    std::map<Index, Json> places;
+    for (const FlatRegion& flat : result.regions) {
+        for (Index v = 0; at(v) < flat.region.source_vertices.size(); ++v) {
+            if (const auto id = result.sources.file_vertex(flat.region.source_vertices[at(v)]))
+                places[*id].push_back({{"region", flat.region.name}, {"vertex", v}});
+        }
+    }
+    Json list = Json::array();
+    for (auto& [vertex, found] : places) {
+        if (found.size() > 1)
+            list.push_back({{"source_vertex", vertex}, {"places", std::move(found)}});
+    }
+    return list;
+}
+
+}  // namespace
+
+std::string geometry_text(const FlatRegion& flat, const SourceIds& sources) {
+    std::string text = "\"uv_mm\":";
+    append(text, flat.chart.uv);
+    text += ",\"triangles\":";
+    append(text, flat.region.triangles);
+    append_sources(text, flat.region, sources);
+    text += ",\"outline\":";
+    append(text, flat.outline);
+    text += ",\"holes\":";
+    append(text, flat.outline.holes);
+    return text;
+}
+
+std::string model_text(const FlattenResult& result) {
+    const SourceIds& sources = result.sources;
+    std::string text = "\"model\":{\"vertices\":" + std::to_string(sources.vertices) +
+                       ",\"triangles\":" + std::to_string(sources.triangles) + ",\"welded_to\":";
+    const bool any_welded =
+        !std::is_sorted(sources.welded_to.begin(), sources.welded_to.end(), std::less_equal<>());
+    append(text, any_welded ? sources.welded_to : std::vector<Index>());
+    return text + ",\"seam_vertices\":" + text_of(seam_vertices(result)) + "}";
+}
+
+}  // namespace lastflat::api
