@@ -51,18 +51,19 @@ std::vector<Constraint> constraints_of(const Plan& plan, const std::vector<std::
 
 ReadModel read_model(std::string_view model, const FlattenOptions& options, Progress& progress) {
     Stopwatch watch;
-    progress.reach(Stage::load, 0.0);
+    progress.reach(Stage::load, 0.0, 0.1);
     const RawMesh raw = load_model(model, options.limits);
     ReadModel read{raw.positions.size(), raw.triangles.size(), count_groups(raw), {}, watch.lap()};
-    progress.reach(Stage::weld, 0.1);
+    progress.reach(Stage::weld, 0.1, 0.15);
     read.surface = weld(raw, options.request.weld, options.request.cut.holes, options.limits);
+    progress.reach(Stage::landmarks, 0.15, 0.25);
     close_opening(read.surface, options.request);
     defeature(read.surface, options.request);
     return read;
 }
 
 Prepared prepare(SurfaceMesh surface, Plan plan, Progress& progress) {
-    progress.reach(Stage::cut, 0.2);
+    progress.reach(Stage::cut, 0.25, 0.3);
     CutSurface cut = cut_surface(surface, plan, progress);
     Prepared prepared;
     prepared.constraints = constraints_of(plan, cut.seams);
@@ -88,7 +89,7 @@ Prepared prepare(SurfaceMesh surface, Plan plan, Progress& progress) {
 
 Prepared prepare(std::string_view model, const FlattenOptions& options, Progress& progress) {
     ReadModel read = read_model(model, options, progress);
-    Plan plan = make_plan(read.surface, options.request);
+    Plan plan = make_plan(read.surface, options.request, progress);
     Prepared prepared = prepare(std::move(read.surface), std::move(plan), progress);
     prepared.load_ms = read.load_ms;
     return prepared;

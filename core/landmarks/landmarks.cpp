@@ -202,7 +202,7 @@ const Points3& points_of(const CurveSource& found) {
     return std::get<Polyline>(found.form).points;
 }
 
-Landmarks find_landmarks(const SurfaceMesh& surface) {
+Landmarks find_landmarks(const SurfaceMesh& surface, const Progress& progress) {
     check_surface(surface);
     auto faces = bare_faces(surface);
     constexpr double coarse = 0.05;  // radians from face to face
@@ -217,6 +217,7 @@ Landmarks find_landmarks(const SurfaceMesh& surface) {
     for (const TopChoice top : {TopChoice::flattest, TopChoice::highest}) {
         if (best && best->topline_confidence >= mostly_sharp) break;
         for (const LastFrame& frame : frames) {
+            progress.check();
             try {
                 Landmarks found = found_with(surface, faces, frame, top, noisy);
                 if (!best || sureness(found) > sureness(*best)) best = std::move(found);

@@ -5,6 +5,7 @@
 
 #include "core/cut/cut.h"
 #include "core/locate/curves.h"
+#include "core/progress.h"
 
 namespace lastflat {
 
@@ -37,7 +38,8 @@ struct Landmarks {
 ///
 /// Throws: Error{region_invalid}, saying what is needed, if the surface is open, in several pieces,
 ///         or has no such sides.
-[[nodiscard]] Landmarks find_landmarks(const SurfaceMesh& surface);
+[[nodiscard]] Landmarks find_landmarks(const SurfaceMesh& surface,
+                                       const Progress& progress = Progress());
 
 /// Of a curve that was found: all of them are polylines.
 [[nodiscard]] const Points3& points_of(const CurveSource& found);

@@ -76,11 +76,11 @@ void name_welded_vertices(const SurfaceMesh& surface, Request& request) {
 
 }  // namespace
 
-Plan make_plan(const SurfaceMesh& surface, const Request& request) {
+Plan make_plan(const SurfaceMesh& surface, const Request& request, const Progress& progress) {
     Plan plan{request};
     if (is_bare(surface, request)) {
         plan.found = request.curves.empty() ? Plan::Found::all : Plan::Found::some;
-        plan.landmarks = find_landmarks(surface);
+        plan.landmarks = find_landmarks(surface, progress);
         warn_where_filled(surface, *plan.landmarks);
         fill_in(surface, *plan.landmarks, plan.request);
     }

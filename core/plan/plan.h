@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/landmarks/landmarks.h"
+#include "core/progress.h"
 #include "core/request.h"
 #include "core/weld/surface_mesh.h"
 
@@ -26,6 +27,7 @@ struct Plan {
 /// name stand in for those that would be found; without constraints the centre line is locked.
 ///
 /// Throws: Error as `find_landmarks`.
-[[nodiscard]] Plan make_plan(const SurfaceMesh& surface, const Request& request);
+[[nodiscard]] Plan make_plan(const SurfaceMesh& surface, const Request& request,
+                             const Progress& progress = Progress());
 
 }  // namespace lastflat

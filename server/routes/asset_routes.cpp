@@ -2,6 +2,7 @@
 
 #include "api/base64.h"
 #include "api/refusal.h"
+#include "api/submission.h"
 #include "server/jobs/job_control.h"
 #include "server/jobs/job_intake.h"
 #include "server/routes/answers.h"
@@ -52,6 +53,7 @@ Response add_asset(const AssetServices& service, const Request& request) {
     if (model == nullptr || model->bytes.empty())
         api::refuse("model_missing", "the model is empty: send it as the body or the part 'model'");
     check_digest(request, model->bytes);
+    api::check_model_bytes(model->bytes);
     check_room(service.blobs, service.min_free_mb);
     AssetLimits limits;
     limits.bytes = service.assets_per_key_mb << 20;

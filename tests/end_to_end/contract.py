@@ -183,6 +183,8 @@ def walk_more(walk, example):
     walk.expect(200, None, "POST", "/v1/assets", **form((b"model", model)))
     walk.expect(400, "digest_differs", "POST", "/v1/assets", body=model, headers=["Content-Digest: sha-256=:" + "A" * 43 + "=:"])
     walk.expect(422, "model_missing", "POST", "/v1/assets", body=b"")
+    walk.expect(422, "unreadable_model", "POST", "/v1/assets", body=bytes(64))
+    walk.expect(415, "unsupported_model", "POST", "/v1/assets", body=b"PK\x03\x04")
     for method in ("GET", "HEAD"):
         walk.expect(200, None, method, "/v1/assets")
         walk.expect(200, None, method, "/v1/assets/{digest}", id=digest)
