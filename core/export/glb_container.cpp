@@ -1,5 +1,6 @@
 #include "core/export/glb_container.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstring>
 
@@ -9,7 +10,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int float_component = 5126, uint_component = 5125;
-constexpr int vertex_buffer = 34962, index_buffer = 34963;
+constexpr int no_target = 0, vertex_buffer = 34962, index_buffer = 34963;
 
 template <class T>
 void append(std::string& bytes, T value) {
@@ -37,10 +38,9 @@ GlbContainer::GlbContainer() {
 
 std::size_t GlbContainer::add_accessor(const char* type, int component_type, std::size_t count,
                                        std::size_t bytes, int target) {
-    document_["bufferViews"].push_back({{"buffer", 0},
-                                        {"byteOffset", buffer_.size() - bytes},
-                                        {"byteLength", bytes},
-                                        {"target", target}});
+    Json view{{"buffer", 0}, {"byteOffset", buffer_.size() - bytes}, {"byteLength", bytes}};
+    if (target != 0) view["target"] = target;
+    document_["bufferViews"].push_back(std::move(view));
     document_["accessors"].push_back({{"bufferView", document_["bufferViews"].size() - 1},
                                       {"componentType", component_type},
                                       {"count", count},
@@ -48,20 +48,34 @@ std::size_t GlbContainer::add_accessor(const char* type, int component_type, std
     return document_["accessors"].size() - 1;
 }
 
-std::size_t GlbContainer::add_positions(const Points3& points) {
-    std::array<float, 3> low{}, high{};
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto value = static_cast<float>(points[i][static_cast<Eigen::Index>(k)]);
-            low[k] = i == 0 ? value : std::min(low[k], value);
-            high[k] = i == 0 ? value : std::max(high[k], value);
-            append(buffer_, value);
-        }
+void GlbContainer::append_floats(const Points3& vectors) {
+    for (const Vec3& v : vectors) {
+        for (const double value : v) append(buffer_, static_cast<float>(value));
     }
+}
+
+std::size_t GlbContainer::add_positions(const Points3& points) {
+    Eigen::AlignedBox3f box;
+    for (const Vec3& p : points) box.extend(p.cast<float>());
+    const std::size_t accessor = add_directions(points);
+    document_["accessors"][accessor]["min"] = {box.min().x(), box.min().y(), box.min().z()};
+    document_["accessors"][accessor]["max"] = {box.max().x(), box.max().y(), box.max().z()};
+    return accessor;
+}
+
+std::size_t GlbContainer::add_directions(const Points3& vectors) {
+    append_floats(vectors);
+    return add_accessor("VEC3", float_component, vectors.size(), 12 * vectors.size(),
+                        vertex_buffer);
+}
+
+std::size_t GlbContainer::add_scalars(const std::vector<double>& values) {
+    for (const double value : values) append(buffer_, static_cast<float>(value));
     const auto accessor =
-        add_accessor("VEC3", float_component, points.size(), 12 * points.size(), vertex_buffer);
-    document_["accessors"][accessor]["min"] = low;
-    document_["accessors"][accessor]["max"] = high;
+        add_accessor("SCALAR", float_component, values.size(), 4 * values.size(), no_target);
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    document_["accessors"][accessor]["min"] = {*least};
+    document_["accessors"][accessor]["max"] = {*most};
     return accessor;
 }
 

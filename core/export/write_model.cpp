@@ -85,31 +85,6 @@ std::string write_flat_obj(const FlattenResult& result) {
     return text;
 }
 
-std::string write_flat_glb(const FlattenResult& result) {
-    GlbContainer glb;
-    auto& document = glb.document();
-    auto& nodes = document["nodes"];
-    auto roots = nlohmann::ordered_json::array();
-    for (std::size_t r = 0; r < result.regions.size(); ++r) {
-        const FlatRegion& flat = result.regions[r];
-        Points2 placed;
-        for (const Vec2& p : flat.chart.uv) placed.push_back(result.sheet.placements[r].apply(p));
-        const auto positions = glb.add_positions(in_metres(flat.region.positions));
-        const auto coordinates = glb.add_texture_coordinates(placed);
-        const auto indices = glb.add_indices(flat.region.triangles);
-        document["meshes"].push_back(
-            {{"name", flat.region.name},
-             {"primitives",
-              {{{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", coordinates}}},
-                {"indices", indices}}}}});
-        roots.push_back(nodes.size());
-        nodes.push_back({{"name", flat.region.name}, {"mesh", r}});
-    }
-    document["scenes"].push_back(
-        {{"nodes", roots}, {"extras", {{"sheet_mm", {result.sheet.width, result.sheet.height}}}}});
-    return glb.write();
-}
-
 std::string write_model_obj(const RawMesh& mesh) {
     std::string text = "# mm\n";
     for (const Vec3& p : mesh.positions)

@@ -12,12 +12,6 @@ namespace lastflat {
 /// mm, in the region's own coordinates).
 [[nodiscard]] std::string write_flat_obj(const FlattenResult& result);
 
-/// GLB of the flattened regions, one node, mesh and primitive each, named as the region. POSITION
-/// in metres, y up as given; TEXCOORD_0 in mm on the sheet, v upward, so one texture of the sheet's
-/// size
-/// (`extras.sheet_mm` of the scene) covers all pieces without overlap.
-[[nodiscard]] std::string write_flat_glb(const FlattenResult& result);
-
 /// OBJ of a model with its groups, mm, four decimals.
 [[nodiscard]] std::string write_model_obj(const RawMesh& mesh);
 

@@ -3,6 +3,7 @@
 #include <future>
 
 #include "api/flatten_result.h"
+#include "core/export/write_flat_glb.h"
 #include "core/export/write_model.h"
 #include "core/export/write_svg.h"
 #include "server/support/gzip.h"

@@ -217,7 +217,7 @@ assert names <= ids, (names, ids)
 PYTHON
 }
 
-# check_glb GLB RESULT: a mesh per piece whose TEXCOORD_0 is the piece's flat shape, put on the sheet.
+# check_glb GLB RESULT: a mesh per piece whose TEXCOORD_0 is the piece's flat shape, put on the sheet, as shares of it.
 check_glb() {
     python3 - "$@" <<'PYTHON'
 import json, math, struct, sys
@@ -243,10 +243,11 @@ for region, placement in zip(result["regions"], result["layout"]["placements"]):
     attributes = meshes[region["name"]]["primitives"][0]["attributes"]
     flat = floats(attributes["TEXCOORD_0"], 2)
     assert len(flat) == len(floats(attributes["POSITION"], 3)) == len(region["uv_mm"]) > 0
+    width, height = gltf["asset"]["extras"]["sheet_mm"]
     turn, move = math.radians(placement["rotation_deg"]), placement["translation_mm"]
     for (u, v), (x, y) in zip(flat, region["uv_mm"]):
         y = -y if placement["mirrored"] else y
         there = (x * math.cos(turn) - y * math.sin(turn) + move[0], x * math.sin(turn) + y * math.cos(turn) + move[1])
-        assert math.dist((u, v), there) < 1e-3, (region["name"], (u, v), there)
+        assert math.dist((u * width, (1 - v) * height), there) < 1e-3, (region["name"], (u, v), there)
 PYTHON
 }

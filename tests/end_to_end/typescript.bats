@@ -61,3 +61,12 @@ compile() {
     run -2 --separate-stderr node "$PROJECT/javascript/flatten.js" "$sample/last.glb" "$sample/last.request.json" nobody
     [[ $stderr == *"(at /locks/"* ]]
 }
+
+@test "the glTF validator finds nothing in what is written" {
+    cd "$BATS_TEST_TMPDIR"
+    "$LASTFLAT" flatten "$sample/last.obj" --request "$sample/last.request.json" --out halves
+    "$LASTFLAT" flatten "$sample/last.obj" --out found
+    node "$PROJECT/validate_glb.mjs" halves/flat.glb found/flat.glb "$sample/last.glb"
+    printf 'glTF\x02\0\0\0' > broken.glb
+    run -1 node "$PROJECT/validate_glb.mjs" broken.glb
+}

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "core/export/write_flat_glb.h"
 #include "core/export/write_model.h"
 #include "core/load/load_model.h"
 #include "tests/helpers/sample.h"
@@ -23,6 +24,33 @@ std::size_t count(const std::string& text, const std::string& part) {
     return n;
 }
 
+using Json = nlohmann::json;
+
+/// A GLB of ours, taken apart.
+struct FlatScene {
+    Json document;
+    std::string buffer;
+
+    explicit FlatScene(const std::string& glb) {
+        std::uint32_t length = 0;
+        std::memcpy(&length, glb.data() + 12, 4);
+        document = Json::parse(glb.substr(20, length));
+        buffer = glb.substr(20 + length + 8);
+    }
+    /// Entry `i` of an accessor of so many floats each.
+    [[nodiscard]] std::vector<double> floats(const Json& accessor, std::size_t width,
+                                             std::size_t i) const {
+        const Json& view =
+            document["bufferViews"][document["accessors"][accessor.get<std::size_t>()]["bufferView"]
+                                        .get<std::size_t>()];
+        std::vector<float> values(width);
+        std::memcpy(values.data(),
+                    buffer.data() + view["byteOffset"].get<std::size_t>() + 4 * width * i,
+                    4 * width);
+        return {values.begin(), values.end()};
+    }
+};
+
 }  // namespace
 
 TEST_SUITE("core/export") {
@@ -40,27 +68,44 @@ TEST_SUITE("core/export") {
         CHECK(count(write_flat_obj(result()), "\nvt ") == vertices);
     }
 
-    TEST_CASE("the flat GLB reads back, its texture coordinates are millimetres on the sheet") {
+    TEST_CASE("the flat GLB reads back, upright, its texture coordinates shares of the sheet") {
         const std::string glb = write_flat_glb(result());
         const RawMesh back = load_model(glb);
-        CHECK((1000.0 * back.positions[7] - result().regions[0].region.positions[7]).norm() < 1e-4);
-        CHECK(back.label_sets.front() == std::vector<std::string>{"lateral", "lateral"});
-        std::uint32_t length = 0;
-        std::memcpy(&length, glb.data() + 12, 4);
-        const auto document = nlohmann::json::parse(glb.substr(20, length));
-        const auto& attributes = document["meshes"][1]["primitives"][0]["attributes"];
-        const auto& view =
-            document["bufferViews"][document["accessors"][attributes["TEXCOORD_0"]
-                                                              .get<std::size_t>()]["bufferView"]
-                                        .get<std::size_t>()];
-        float uv[2];
-        std::memcpy(
-            uv, glb.data() + 20 + length + 8 + view["byteOffset"].get<std::size_t>() + 8 * 5, 8);
-        const Vec2 expected = result().sheet.placements[1].apply(result().regions[1].chart.uv[5]);
-        CHECK(uv[0] == doctest::Approx(expected.x()).epsilon(1e-6));
-        CHECK(uv[1] == doctest::Approx(expected.y()).epsilon(1e-6));
-        CHECK(document["scenes"][0]["extras"]["sheet_mm"][0].get<double>() ==
-              doctest::Approx(result().sheet.width));
+        const Vec3 on_last = result().regions[0].region.positions[7];  // z is up
+        CHECK((1000.0 * back.positions[7] - Vec3(on_last.x(), on_last.z(), -on_last.y())).norm() <
+              1e-4);
+        CHECK(back.label_sets.front() ==
+              std::vector<std::string>{"last", "lateral", "lateral", "leather"});
+        const FlatScene scene(glb);
+        const Json& primitive = scene.document["meshes"][1]["primitives"][0];
+        const Sheet& sheet = result().sheet;
+        const Vec2 placed = sheet.placements[1].apply(result().regions[1].chart.uv[5]);
+        const auto uv = scene.floats(primitive["attributes"]["TEXCOORD_0"], 2, 5);
+        CHECK(uv[0] == doctest::Approx(placed.x() / sheet.width).epsilon(1e-6));
+        CHECK(uv[1] == doctest::Approx(1.0 - placed.y() / sheet.height).epsilon(1e-6));
+        CHECK(scene.document["asset"]["extras"]["sheet_mm"][1].get<double>() ==
+              doctest::Approx(sheet.height));
+        const auto normal = scene.floats(primitive["attributes"]["NORMAL"], 3, 5);
+        CHECK(std::hypot(normal[0], normal[1], normal[2]) == doctest::Approx(1.0).epsilon(1e-6));
+    }
+
+    TEST_CASE("the morph target lays the pieces on the ground, as far apart as on the sheet") {
+        const FlatScene scene(write_flat_glb(result()));
+        for (std::size_t r = 0; r < 2; ++r) {
+            const Json& primitive = scene.document["meshes"][r]["primitives"][0];
+            const auto flat = [&](std::size_t v) {
+                const auto there = scene.floats(primitive["attributes"]["POSITION"], 3, v);
+                const auto way = scene.floats(primitive["targets"][0]["POSITION"], 3, v);
+                return Vec3(1000.0 * (there[0] + way[0]), 1000.0 * (there[1] + way[1]),
+                            1000.0 * (there[2] + way[2]));
+            };
+            const Points2& uv = result().regions[r].chart.uv;
+            for (const std::size_t v : {1u, 17u, 300u}) {
+                CHECK((flat(v) - flat(0)).norm() ==
+                      doctest::Approx((uv[v] - uv[0]).norm()).epsilon(1e-4));
+                CHECK(flat(v).z() == doctest::Approx(flat(0).z()).epsilon(1e-5));
+            }
+        }
     }
 
     TEST_CASE("a model's OBJ and GLB say the same") {
