@@ -245,4 +245,13 @@ FlattenRequest flatten_request_from_json(std::string_view text, const RequestLim
     return read_flatten_request(Field{document, ""}, limits);
 }
 
+std::string without_tag(const std::string& request) {
+    constexpr std::size_t long_text = 1 << 20;
+    if (request.size() > long_text) return request;
+    if (request.find_first_not_of(" \t\r\n") == std::string::npos) return "{}";
+    nlohmann::json document = nlohmann::json::parse(request);
+    document.erase("tag");
+    return document.dump(-1, ' ', true);
+}
+
 }  // namespace lastflat::api

@@ -33,4 +33,8 @@ struct RequestLimits {
 /// The same from a field of a document; pointers begin at that document.
 [[nodiscard]] FlattenRequest read_flatten_request(const Field& field, const RequestLimits& limits);
 
+/// A text that is the same for requests that ask the same: of a valid one without its `tag`. A long
+/// one stays as it is.
+[[nodiscard]] std::string without_tag(const std::string& request);
+
 }  // namespace lastflat::api

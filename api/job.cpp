@@ -31,6 +31,7 @@ Json json_of(const Job& job) {
     time("result_expires_at", job.result_expires_ms);
     time("expires_at", job.expires_ms);
     json["attempt"] = job.attempt;
+    if (job.cached) json["cached"] = true;
     json["progress"] = {{"stage", job.stage.empty() ? state : job.stage}, {"percent", job.percent}};
     if (job.remaining_s) json["progress"]["remaining_s"] = tenths(*job.remaining_s);
     if (job.queue_position) json["queue"] = {{"position", *job.queue_position}};

@@ -36,8 +36,9 @@ struct Job {
     std::int64_t created_ms = 0;  ///< since 1970
     std::optional<std::int64_t> started_ms, finished_ms, cancel_at_ms;
     std::optional<std::int64_t> result_expires_ms, expires_ms;
-    int attempt = 0;    ///< how many times it was begun
-    std::string stage;  ///< of the flattening, while it runs; empty: its state
+    int attempt = 0;      ///< how many times it was begun
+    bool cached = false;  ///< answered by the result of an earlier job that asked the same
+    std::string stage;    ///< of the flattening, while it runs; empty: its state
     int percent = 0;
     std::optional<double> remaining_s;          ///< about, from jobs like it
     std::optional<std::size_t> queue_position;  ///< 1: next

@@ -20,9 +20,10 @@ namespace lastflat::server {
 class CorruptBlob : public api::Refusal {
 public:
     explicit CorruptBlob(const std::string& why)
-        : Refusal(
-              {"result_corrupt", "the stored bytes have changed on the disk; post the job again"},
-              why) {}
+        : Refusal({"result_corrupt",
+                   "the stored bytes have changed on the disk; post the job again, with "
+                   "Cache-Control: no-cache"},
+                  why) {}
 };
 
 /// Every call is safe from any thread and may throw StoreError.

@@ -25,7 +25,11 @@ struct NewJob {
     api::JobPriority priority = api::JobPriority::interactive;
     std::string model, request;
     std::uint64_t model_bytes = 0;
-    std::string fingerprint;                   ///< of everything asked: the same means a repetition
+    std::string fingerprint;  ///< of everything asked: the same means a repetition
+    /// Of all that its result depends on, the program included; empty: it is answered by its own
+    /// run alone.
+    std::string question;
+    bool fresh = false;                        ///< it is run even if the question has an answer
     std::string idempotency_key;               ///< empty: none
     std::optional<std::int64_t> cancel_at_ms;  ///< if it has not ended by then
     std::optional<api::WebhookRequest> webhook;
@@ -67,7 +71,7 @@ struct JobRecord {
     std::int64_t created_ms = 0;
     std::optional<std::int64_t> started_ms, finished_ms, cancel_at_ms;
     std::optional<std::int64_t> result_expires_ms, expires_ms;  ///< once it has ended
-    int attempt = 0;
+    int attempt = 0;                            ///< succeeded with 0: answered by an earlier result
     std::int64_t revision = 0;                  ///< grows with every change
     std::optional<std::size_t> queue_position;  ///< while queued; 1: next
     std::optional<api::Problem> error;          ///< of a failed job

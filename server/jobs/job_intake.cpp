@@ -1,13 +1,16 @@
 #include "server/jobs/job_intake.h"
 
 #include <algorithm>
+#include <filesystem>
 
+#include "api/flatten_request.h"
 #include "api/object_reader.h"
 #include "server/jobs/job_control.h"
 #include "server/support/clock.h"
 #include "server/support/crypto.h"
 #include "server/support/duration.h"
 #include "server/support/scope_exit.h"
+#include "server/support/version.h"
 
 namespace lastflat::server {
 namespace {
@@ -28,6 +31,7 @@ NewJob new_job(const Submission& submission) {
     job.priority = submission.priority.value_or(job.batch.empty() ? api::JobPriority::interactive
                                                                   : api::JobPriority::batch);
     job.request = submission.request;
+    job.fresh = submission.fresh;
     job.idempotency_key = submission.idempotency_key;
     if (const auto after = duration_ms(submission.cancel_after))
         job.cancel_at_ms = now_ms() + *after;
@@ -116,6 +120,10 @@ void JobIntake::complete(const Submission& submission, NewJob& job, const BlobSt
     job.model = digest_of_model(submission, job, own);
     job.fingerprint = sha256(job.model + "\n" + submission.cancel_after + "\n" + job.request +
                              webhook_print(job));
+    job.question =
+        sha256(std::string(build) + "\n" + job.model + "\n" + api::without_tag(submission.request));
+    const std::string answer = jobs_.answer(job);
+    if (!answer.empty() && !std::filesystem::exists(blobs_.path_of(answer))) job.fresh = true;
 }
 
 void JobIntake::check_taking() const {

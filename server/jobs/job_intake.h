@@ -32,6 +32,7 @@ struct Submission {
     std::string batch;                         ///< id of the batch it came in; empty: alone
     std::string idempotency_key;               ///< empty: none
     std::string cancel_after;                  ///< a duration as it was written; empty: never
+    bool fresh = false;                        ///< a result that is there already will not do
     std::optional<api::JobPriority> priority;  ///< else that of a job alone, or in a batch
 
     void make_model(std::string bytes) {

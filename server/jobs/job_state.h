@@ -12,7 +12,8 @@ namespace lastflat::server {
 ///   │          ├──┴────► failed
 ///   │          ▼
 ///   │       canceling ─► canceled
-///   └──────────────────► canceled
+///   ├──────────────────► canceled
+///   └──────────────────► succeeded, with the result of an earlier job that asked the same
 ///
 /// A running job goes back to queued when its worker is lost or the service ends.
 using api::is_final;
@@ -25,7 +26,8 @@ using api::JobState;
 /// Whether a job may go from one state to the other. Stores ask it on every change.
 [[nodiscard]] constexpr bool may_become(JobState from, JobState to) {
     switch (from) {
-        case JobState::queued: return to == JobState::running || to == JobState::canceled;
+        case JobState::queued:
+            return to == JobState::running || to == JobState::canceled || to == JobState::succeeded;
         case JobState::running:
             return to == JobState::succeeded || to == JobState::failed ||
                    to == JobState::canceling || to == JobState::queued;

@@ -100,10 +100,13 @@ public:
     virtual ~JobStore() = default;
 
     /// Keeps a new job as queued, or says why not. The same id or idempotency key with the same
-    /// fingerprint is a repetition and changes nothing.
+    /// fingerprint is a repetition and changes nothing. If its question has an answer, it has
+    /// succeeded with that at once.
     [[nodiscard]] virtual Admitted add(const NewJob& job, const QueueLimits& limits) = 0;
     /// The same for all jobs of a batch together; the key is the batch's, and the id, too.
     [[nodiscard]] virtual Admitted add(const NewBatch& batch, const QueueLimits& limits) = 0;
+    /// The result that would answer the job's question now; empty: there is none.
+    [[nodiscard]] virtual std::string answer(const NewJob& job) = 0;
     [[nodiscard]] virtual std::optional<BatchRecord> find_batch(const std::string& owner,
                                                                 const std::string& id) = 0;
     [[nodiscard]] virtual std::optional<JobRecord> find(const std::string& owner,

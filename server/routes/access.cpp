@@ -89,7 +89,8 @@ void Access::allow_origin(http::Request& request) const {
     request.answer_headers.emplace_back(
         "Access-Control-Allow-Headers",
         "Authorization, Content-Type, Content-Digest, Idempotency-Key, Prefer, Cancel-After, "
-        "Job-Priority, X-Flatten-Constraints, X-Request-Id, If-None-Match, Last-Event-ID, Range");
+        "Cache-Control, Job-Priority, X-Flatten-Constraints, X-Request-Id, If-None-Match, "
+        "Last-Event-ID, Range");
     request.answer_headers.emplace_back("Access-Control-Max-Age", "600");
 }
 

@@ -40,6 +40,7 @@ SubmittedBatch submit(const BatchServices& service, const Request& request) {
     batch.submission = [&](std::size_t index) {
         Submission submission = submission_of(jobs.job(index), "/jobs/" + std::to_string(index));
         submission.cancel_after = terms.cancel_after;
+        submission.fresh = terms.fresh;
         if (!submission.priority) submission.priority = terms.priority;
         return submission;
     };

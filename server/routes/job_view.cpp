@@ -22,6 +22,7 @@ api::Job JobView::of(const JobRecord& record) const {
     job.result_expires_ms = record.result_expires_ms;
     job.expires_ms = record.expires_ms;
     job.attempt = record.attempt;
+    job.cached = record.state == JobState::succeeded && record.attempt == 0;
     job.queue_position = record.queue_position;
     job.error = record.error;
     if (record.state == JobState::succeeded) job.percent = 100;

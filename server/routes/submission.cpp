@@ -132,6 +132,7 @@ void read_terms(const http::Request& request, Submission& submission) {
     submission.cancel_after = request.header("cancel-after");
     if (!submission.cancel_after.empty() && !duration_ms(submission.cancel_after))
         api::refuse("header_invalid", "Cancel-After is not a duration such as 90s, 2m or 1h");
+    submission.fresh = request.header("cache-control").find("no-cache") != std::string_view::npos;
     if (submission.priority || !request.headers.contains("job-priority")) return;
     const auto priority = api::value_of(api::job_priorities, request.header("job-priority"));
     if (!priority)

@@ -35,9 +35,9 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& file, SqliteClock cl
     : file_(file), clock_(std::move(clock)) {
     try {
         writer_ = std::make_unique<SqliteConnection>(file, false);
-        const int version = writer_->database().execAndGet("PRAGMA user_version").getInt();
+        const int schema = writer_->database().execAndGet("PRAGMA user_version").getInt();
         // Damage must not be copied into tables that then look sound.
-        if (version > 0 && version < newest_schema) require_sound();
+        if (schema > 0 && schema < newest_schema) require_sound();
         migrate(writer_->database());
         identity_ = identity_of(file);
     } catch (const SQLite::Exception& error) {

@@ -1,6 +1,7 @@
 // What is asked of the jobs without changing them.
 #include <algorithm>
 
+#include "server/storage/sqlite_answers.h"
 #include "server/storage/sqlite_rows.h"
 #include "server/storage/sqlite_store.h"
 #include "server/storage/sqlite_turns.h"
@@ -54,6 +55,13 @@ std::optional<BatchRecord> SqliteStore::find_batch(const std::string& owner,
                            batch_states(connection, owner, id),
                            jobs.number(0),
                            jobs.maybe_number(1)};
+    });
+}
+
+std::string SqliteStore::answer(const NewJob& job) {
+    return database_.read([&](SqliteConnection& connection) -> std::string {
+        const auto answer = answer_to(connection, job);
+        return answer ? row_of(connection, *answer).result : std::string();
     });
 }
 

@@ -1,6 +1,7 @@
 #include "server/storage/sqlite_rows.h"
 
 #include "server/jobs/result_parts.h"
+#include "server/storage/sqlite_answers.h"
 #include "server/storage/sqlite_turns.h"
 #include "server/support/clock.h"
 
@@ -222,6 +223,7 @@ void erase_row(SqliteConnection& connection, const JobRow& row) {
     Query own(
         connection.prepared("SELECT 1 FROM webhooks WHERE owner = ?1 AND id = ?2 AND job = ?2"));
     if (own.bind(row.owner, row.id).next()) erase_webhook(connection, row.owner, row.id);
+    forget_question(connection, row.seq);
     Query(connection.prepared("DELETE FROM jobs WHERE seq = ?")).bind(row.seq).run();
     note_batch(connection, row);
 }

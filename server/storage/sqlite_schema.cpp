@@ -312,6 +312,15 @@ CREATE TABLE batches (
 INSERT INTO batches SELECT owner, batch, min(created_ms),
     CASE WHEN count(*) = count(finished_ms) THEN max(finished_ms) END, count(*)
     FROM jobs WHERE batch <> '' GROUP BY owner, batch;
+)sql",
+                                R"sql(
+-- What a job's result depends on: who asks the same again has the answer at once.
+CREATE TABLE questions (
+    seq      INTEGER PRIMARY KEY,
+    owner    TEXT NOT NULL,
+    question TEXT NOT NULL
+);
+CREATE INDEX questions_by_text ON questions (owner, question, seq);
 )sql"};
 
 }  // namespace
@@ -319,19 +328,19 @@ INSERT INTO batches SELECT owner, batch, min(created_ms),
 static_assert(migrations.size() == newest_schema);
 
 void migrate(SQLite::Database& database, int wanted) {
-    int version = database.execAndGet("PRAGMA user_version").getInt();
-    if (version > newest_schema) {
-        throw StoreError("the database has schema " + std::to_string(version) +
+    int schema = database.execAndGet("PRAGMA user_version").getInt();
+    if (schema > newest_schema) {
+        throw StoreError("the database has schema " + std::to_string(schema) +
                          ", this version of the program knows up to " +
                          std::to_string(newest_schema) + "; use the newer program");
     }
-    while (version < wanted) {
+    while (schema < wanted) {
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         // Another process may have been faster.
-        version = database.execAndGet("PRAGMA user_version").getInt();
-        if (version >= wanted) break;
-        database.exec(migrations.at(static_cast<std::size_t>(version)));
-        database.exec("PRAGMA user_version=" + std::to_string(++version));
+        schema = database.execAndGet("PRAGMA user_version").getInt();
+        if (schema >= wanted) break;
+        database.exec(migrations.at(static_cast<std::size_t>(schema)));
+        database.exec("PRAGMA user_version=" + std::to_string(++schema));
         transaction.commit();
     }
 }

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "server/jobs/result_parts.h"
+#include "server/storage/sqlite_answers.h"
 #include "server/storage/sqlite_rows.h"
 #include "server/storage/sqlite_turns.h"
 #include "server/support/clock.h"
@@ -87,6 +88,7 @@ void insert(SqliteConnection& connection, const NewJob& job) {
     row.seq = connection.database().getLastInsertRowid();
     row.revision = 1;
     note_change(connection, row);
+    note_question(connection, row.seq, job);
     if (job.webhook) {
         add_webhook(connection,
                     {{job.id, job.webhook->url, job.webhook->secret, job.webhook->events, now_ms()},
@@ -148,8 +150,8 @@ void forget_expired(SqliteConnection& connection, const Retention& retention, Sw
     for (const std::string& blob : texts_of(results)) {
         Query(
             connection.prepared("UPDATE jobs SET result = '', parts = '', revision = revision + 1 "
-                                "WHERE result = ? AND result <> ''"))
-            .bind(blob)
+                                "WHERE result = ? AND result <> '' AND finished_ms <= ?"))
+            .bind(blob, now_ms() - retention.result_ms)
             .run();
         swept.blobs.push_back(blob);
     }
@@ -179,9 +181,12 @@ void forget_expired(SqliteConnection& connection, const Retention& retention, Sw
 Admitted SqliteStore::add(const NewJob& job, const QueueLimits& limits) {
     return database_.write([&](SqliteConnection& connection) -> Admitted {
         if (const auto found = earlier(connection, job)) return *found;
-        const Admission room = room_for(connection, job.owner, 1, job.model_bytes, limits);
+        const auto answer = answer_to(connection, job);
+        const Admission room = answer ? room_for(connection, job.owner, 0, 0, limits)
+                                      : room_for(connection, job.owner, 1, job.model_bytes, limits);
         if (room != Admission::queued) return {room, {}};
         insert(connection, job);
+        if (answer) give_answer(connection, job, *answer);
         note_key(connection, job.owner, job.idempotency_key, job.fingerprint, job.id);
         return {Admission::queued, job.id};
     });
@@ -192,14 +197,21 @@ Admitted SqliteStore::add(const NewBatch& batch, const QueueLimits& limits) {
         if (const auto found =
                 earlier_with_key(connection, batch.owner, batch.idempotency_key, batch.fingerprint))
             return *found;
+        std::vector<std::pair<const NewJob*, JobNumber>> answered;
         std::uint64_t bytes = 0;
-        for (const NewJob& job : batch.jobs) bytes += job.model_bytes;
-        const Admission room = room_for(connection, batch.owner, batch.jobs.size(), bytes, limits);
+        for (const NewJob& job : batch.jobs) {
+            const auto answer = answer_to(connection, job);
+            if (answer) answered.emplace_back(&job, *answer);
+            bytes += answer ? 0 : job.model_bytes;
+        }
+        const Admission room =
+            room_for(connection, batch.owner, batch.jobs.size() - answered.size(), bytes, limits);
         if (room != Admission::queued) return {room, {}};
         Query(connection.prepared("INSERT INTO batches VALUES (?, ?, ?, NULL, ?)"))
             .bind(batch.owner, batch.id, now_ms(), std::uint64_t{batch.jobs.size()})
             .run();
         for (const NewJob& job : batch.jobs) insert(connection, job);
+        for (const auto& [job, answer] : answered) give_answer(connection, *job, answer);
         note_key(connection, batch.owner, batch.idempotency_key, batch.fingerprint, batch.id);
         return {Admission::queued, batch.id};
     });

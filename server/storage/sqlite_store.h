@@ -14,6 +14,7 @@ public:
 
     [[nodiscard]] Admitted add(const NewJob& job, const QueueLimits& limits) override;
     [[nodiscard]] Admitted add(const NewBatch& batch, const QueueLimits& limits) override;
+    [[nodiscard]] std::string answer(const NewJob& job) override;
     [[nodiscard]] std::optional<BatchRecord> find_batch(const std::string& owner,
                                                         const std::string& id) override;
     [[nodiscard]] std::optional<JobRecord> find(const std::string& owner,

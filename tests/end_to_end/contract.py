@@ -83,6 +83,8 @@ def walk_submissions(walk, example):
                    lambda: walk.post(model, request)):
         jobs.append(submit())
         walk.wait_for(jobs[-1], "succeeded")
+    if not walk.expect(202, None, "POST", "/v1/jobs", fresh=False, **as_json).get("cached"):
+        walk.contract.complain("POST /v1/jobs", "what is there did not answer")
     shown = walk.contract.document["components"]["schemas"]["FlattenResult"]["examples"][0]
     for id in jobs:
         result = walk.expect(200, None, "GET", "/v1/jobs/{id}/result", id=id)

@@ -84,8 +84,11 @@ class Walk:
     def __init__(self, server, contract, headers=()):
         self.server, self.contract, self.headers = server, contract, list(headers)
 
-    def ask(self, method, path, *, id=NO_JOB, query="", headers=(), body=None, version="HTTP/1.1", host="localhost"):
+    def ask(self, method, path, *, id=NO_JOB, query="", headers=(), body=None, version="HTTP/1.1", host="localhost", fresh=True):
+        """`fresh`: a job is run, even if the answer is there."""
         lines = [f"{method} {path_of(path, id)}{query} {version}", f"Host: {host}", "Connection: close", *self.headers, *headers]
+        if fresh:
+            lines.append("Cache-Control: no-cache")
         if body is not None:
             lines.append(f"Content-Length: {len(body)}")
         data = "\r\n".join(lines).encode() + b"\r\n\r\n" + (body or b"")

@@ -54,12 +54,13 @@ stop_servers() {
 # has_ended PROCESS: whether a process of ours has ended, waited for or not.
 has_ended() { [[ ! -e /proc/$1/status ]] || grep -q '^State:.*Z' "/proc/$1/status"; }
 
-# ask CURL_ARGUMENTS...: sets $status; the answer is in $body and $headers (files).
+# ask CURL_ARGUMENTS...: sets $status; the answer is in $body and $headers (files). Jobs are run, even if the answer is
+# there, unless $cache_control says otherwise.
 ask() {
     local asked
     body=$BATS_TEST_TMPDIR/body headers=$BATS_TEST_TMPDIR/headers
     rm -f "$body"  # an answer without a body makes none
-    asked=$(curl -sS -g --max-time 60 -o "$body" -D "$headers" -w '%{http_code} %{method} %{url_effective}' "$@")
+    asked=$(curl -sS -g -H "Cache-Control: ${cache_control:-no-cache}" --max-time 60 -o "$body" -D "$headers" -w '%{http_code} %{method} %{url_effective}' "$@")
     status=${asked%% *}
     keep_answer "$asked"
 }

@@ -239,3 +239,35 @@ is_taken() { ! curl -s --max-time 0.3 "$url$job" -o "$BATS_TEST_TMPDIR/taken"; }
     assert_equal "$(curl -sS "$url/v1/jobs?tag=size-3" | jq '.items | length')" 1
     assert_equal "$(find "$data/blobs" -type f | wc -l)" 5  # the results; the model is gone
 }
+
+@test "the same request on the same model is answered from what is there, as a job of its own" {
+    start_server
+    asset=$(curl -sS --data-binary "@$sample/last.obj" "$url/v1/assets" | jq -r .id)
+    cache_control=max-age=60
+    post() {  # REQUEST's filter, CURL_ARGUMENTS...
+        jq -c --arg asset "$asset" "{model: {asset_id: \$asset}, request: (. + $1)}" "$sample/last.request.json" > "$BATS_TEST_TMPDIR/asked"
+        ask -H 'Content-Type: application/json' -H 'Prefer: wait=60' "${@:2}" --data-binary "@$BATS_TEST_TMPDIR/asked" "$url/v1/jobs"
+        assert_equal "$status $(jq -r .state "$body")" "200 succeeded"
+    }
+    post '{tag: "first"}'
+    first=$(jq -r .links.self "$body")
+    assert_equal "$(jq -c '[.cached, .attempt]' "$body")" '[null,1]'
+    post '{tag: "second"}' -H 'Idempotency-Key: again'
+    second=$(jq -r .links.self "$body")
+    assert_equal "$(jq -c '[.cached, .attempt, .tag, has("started_at")]' "$body")" '[true,0,"second",false]'
+    [[ $second != "$first" ]]
+    cmp <(curl -sS "$url$first/result") <(curl -sS "$url$second/result")
+    ask "$url$second/events"
+    assert_equal "$(sed -n 's/^event: //p' "$body" | sort -u | xargs)" "done state"
+    post '{tag: "second"}' -H 'Idempotency-Key: again'
+    assert_equal "$(jq -r .links.self "$body") $(header Idempotent-Replayed)" "$second true"
+    post '{draw: ["fan"]}'
+    assert_equal "$(jq .cached "$body")" null
+    cache_control=no-cache
+    post '{}'
+    assert_equal "$(jq .cached "$body")" null
+
+    ask -X DELETE "$url$first"
+    ask "$url$second/result"
+    assert_equal "$status" 200
+}

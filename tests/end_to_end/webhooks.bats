@@ -73,6 +73,18 @@ PYTHON
     assert_equal "$(jq -c '[(.items | length), (.items[0] | has("secret"))]' "$body")" '[1,false]'
 }
 
+@test "a job that is answered from what is there is told, too" {
+    start_receiver 204
+    start_server --webhooks any
+    flatten "$sample/last.obj" "$sample/last.request.json"
+    register "$target"
+    cache_control=max-age=60
+    flatten "$sample/last.obj" "$sample/last.request.json"
+    assert_equal "$(curl -sS "$url$job" | jq .cached)" true
+    wait_until 5 got 1
+    is_signed "$secret" "${job##*/}"
+}
+
 @test "a job may bring its own webhook, signed with the secret that it brings" {
     start_receiver 204
     start_server --webhooks any

@@ -45,7 +45,7 @@ class Misbehaviour:
     def ask(self, method, path, body=None, **headers):
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
         named = {name.replace("_", "-"): value for name, value in headers.items()}
-        connection.request(method, path, body, {"Authorization": "Bearer " + self.key, **named})
+        connection.request(method, path, body, {"Authorization": "Bearer " + self.key, "Cache-Control": "no-cache", **named})
         answer = connection.getresponse()
         content = answer.read()
         connection.close()

@@ -59,9 +59,10 @@ class Service:
         return http.client.HTTPConnection("127.0.0.1", self.admin if admin else self.port, timeout=timeout)
 
     def ask(self, method, path, body=None, headers=None, connection=None):
-        """Status, headers, body. Raises OSError or HTTPException if the service is not there."""
+        """Status, headers, body; a job is run even if its answer is there. Raises OSError or HTTPException if the service is
+        not there."""
         own = connection or self.connect()
-        own.request(method, path, body, headers or {})
+        own.request(method, path, body, {"Cache-Control": "no-cache", **(headers or {})})
         answer = own.getresponse()
         content = answer.read()
         if connection is None:

@@ -25,7 +25,7 @@ TEST_SUITE("server/jobs/job_state") {
         for (const JobState from : {JobState::succeeded, JobState::failed, JobState::canceled}) {
             for (int to = 0; to < 6; ++to) CHECK_FALSE(may_become(from, static_cast<JobState>(to)));
         }
-        CHECK_FALSE(may_become(JobState::queued, JobState::succeeded));
+        CHECK_FALSE(may_become(JobState::queued, JobState::failed));
         CHECK_FALSE(may_become(JobState::canceling, JobState::succeeded));
     }
 }
