@@ -239,3 +239,15 @@ PYTHON
     jq -e '.regions[0] | (.holes | length) == 1 and .holes[0].segments[0].curve == "rim" and .metrics.flipped_triangles == 0 and .metrics.border_crossings == 0' "$body"
     jq -e '.constraints[0].verdict == "pass"' "$body"
 }
+
+@test "inspect and validate say the same words, of what is right and of what is wrong" {
+    start_server
+    head -c 20000 "$sample/last.glb" > cut.glb
+    sed '/^f/,$d' "$sample/last.obj" > points.obj
+    for model in "$sample/last.obj" cut.glb points.obj; do
+        run --separate-stderr "$LASTFLAT" inspect --json "$model"
+        jq -S 'del(.instance, .request_id)' <<< "$output$stderr" > inspected
+        ask --data-binary "@$model" "$url/v1/validate"
+        jq -S 'del(.instance, .request_id)' "$body" | diff inspected -
+    done
+}
