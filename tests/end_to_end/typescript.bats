@@ -70,3 +70,9 @@ compile() {
     printf 'glTF\x02\0\0\0' > broken.glb
     run -1 node "$PROJECT/validate_glb.mjs" broken.glb
 }
+
+@test "the page at /docs shows every operation with its bodies, examples and answers" {
+    start_server
+    node docs.mjs "$url" > "$BATS_TEST_TMPDIR/shown"
+    grep -Eqx '[0-9]+ operations' "$BATS_TEST_TMPDIR/shown"
+}
