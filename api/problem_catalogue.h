@@ -52,6 +52,8 @@ inline constexpr CataloguedProblem problem_catalogue[] = {
     // Of keys, storage and limits
     {"key_missing", 401},
     {"key_unknown", 401},
+    {"token_invalid", 401},
+    {"scope_refused", 403},
     {"no_keys", 401},
     {"host_refused", 403},
     {"origin_refused", 403},

@@ -12,6 +12,7 @@
 #include "server/cli/serve.h"
 #include "server/cli/usage_fault.h"
 #include "server/http/client_address.h"
+#include "server/support/clock.h"
 #include "server/support/duration.h"
 #include "server/support/flat_memory.h"
 #include "server/support/version.h"
@@ -63,7 +64,8 @@ CLI::Validator one_of(const std::map<std::string, Value>& values) {
 struct Arguments {
     server::Settings settings;
     std::string listen = "127.0.0.1:8080", admin, model, request, out;
-    std::string key, state;
+    std::string key, state, scope = "all", expires;
+    server::NewKey new_key;
     int limit = 50;
     SampleLastOptions sample;
 };
@@ -164,8 +166,22 @@ std::map<const CLI::App*, std::function<int()>> add_operator_commands(CLI::App& 
     auto* keys = app.add_subcommand("keys", "API keys of the service");
     keys->require_subcommand(1);
     auto* add = with_data(keys->add_subcommand("add", "Make a key and print it once"));
-    add->add_option("NAME", a.key, "Whose it is")->required();
-    commands[add] = [&] { return server::add_key_command(data, a.key); };
+    add->add_option("NAME", a.new_key.name, "Whose it is")->required();
+    std::vector<std::string> scopes;
+    for (const auto& scope : server::key_scopes) scopes.emplace_back(scope.word);
+    add->add_option("--scope", a.scope, "all; jobs: deletes nothing, no webhooks, no tokens; read")
+        ->check(CLI::IsMember(scopes));
+    add->add_option("--expires", a.expires, "After so long it is no longer good: 90d, 12h")
+        ->check([](const std::string& text) {
+            return server::duration_ms(text) ? std::string()
+                                             : "'" + text + "' is not like 90d, 12h";
+        });
+    commands[add] = [&] {
+        a.new_key.scope = api::value_of(server::key_scopes, a.scope).value();
+        if (const auto time = server::duration_ms(a.expires))
+            a.new_key.expires_ms = server::now_ms() + *time;
+        return server::add_key_command(data, a.new_key);
+    };
     auto* revoke = with_data(keys->add_subcommand("revoke", "Make a key useless"));
     revoke->add_option("ID", a.key, "Of the key, as `keys list` shows it")->required();
     commands[revoke] = [&] { return server::revoke_key_command(data, a.key); };

@@ -10,6 +10,7 @@
 #include "server/storage/data_directory.h"
 #include "server/storage/sqlite_accounts.h"
 #include "server/storage/sqlite_store.h"
+#include "server/support/clock.h"
 
 namespace lastflat::server {
 namespace {
@@ -100,16 +101,27 @@ private:
 
 }  // namespace
 
-int add_key_command(const std::string& data, const std::string& name) {
+int add_key_command(const std::string& data, const NewKey& key) {
     umask(S_IRWXG | S_IRWXO);
     fs::create_directories(data);
     SqliteDatabase database(sound_database(data));
     SqliteKeys keys(database);
     mark_database(data, keys.secret("database"));
-    std::cout << keys.add(name) << std::endl;
+    std::cout << keys.add(key) << std::endl;
     std::cerr << "Keep it: it is stored as a hash and cannot be shown again.\n";
     return 0;
 }
+
+namespace {
+
+std::string state_of(const ApiKey& key) {
+    if (key.revoked_ms) return "revoked";
+    if (!key.expires_ms) return "good";
+    return (*key.expires_ms > now_ms() ? "good until " : "expired ") +
+           api::rfc3339(*key.expires_ms);
+}
+
+}  // namespace
 
 int revoke_key_command(const std::string& data, const std::string& id) {
     SqliteDatabase database(existing_database(data));
@@ -121,8 +133,8 @@ int revoke_key_command(const std::string& data, const std::string& id) {
 int list_keys_command(const std::string& data) {
     SqliteDatabase database(existing_database(data));
     for (const ApiKey& key : SqliteKeys(database).list()) {
-        std::cout << key.id << "  " << api::rfc3339(key.created_ms) << "  "
-                  << (key.revoked_ms ? "revoked" : "good") << "  " << key.name << "\n";
+        std::cout << key.id << "  " << api::rfc3339(key.created_ms) << "  " << state_of(key) << "  "
+                  << api::word_of(key_scopes, key.scope) << "  " << key.name << "\n";
     }
     return 0;
 }

@@ -3,10 +3,12 @@
 
 #include <string>
 
+#include "server/jobs/key_store.h"
+
 namespace lastflat::server {
 
 /// Prints the new key once.
-[[nodiscard]] int add_key_command(const std::string& data, const std::string& name);
+[[nodiscard]] int add_key_command(const std::string& data, const NewKey& key);
 [[nodiscard]] int revoke_key_command(const std::string& data, const std::string& id);
 [[nodiscard]] int list_keys_command(const std::string& data);
 

@@ -24,6 +24,7 @@
 #include "server/routes/own_machine.h"
 #include "server/routes/result_routes.h"
 #include "server/routes/submit_routes.h"
+#include "server/routes/token_routes.h"
 #include "server/routes/validate_route.h"
 #include "server/routes/webhook_routes.h"
 #include "server/runner/in_worker.h"
@@ -162,6 +163,7 @@ private:
         add(batch_result_routes({batches_, blobs_}));
         add({batch_event_route({batches_, watch_, seats_})});
         add(webhook_routes(webhooks_, settings_.webhooks != WebhookTargets::none));
+        add({token_route(tokens_)});
         add({health_route(admin_services_)});
         add(document_routes());
         return routes;
@@ -231,7 +233,9 @@ private:
                                             database_.check();
                                             blobs_.check();
                                         }};
-    Access access_{keys_, {settings_.rate, settings_.allowed_origins, settings_.listen.host}};
+    const Tokens tokens_{keys_.secret("tokens")};
+    Access access_{
+        keys_, jobs_, tokens_, {settings_.rate, settings_.allowed_origins, settings_.listen.host}};
     std::optional<Listener> main_, admin_;
 };
 

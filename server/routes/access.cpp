@@ -19,26 +19,64 @@ std::optional<std::string_view> bearer(std::string_view header) {
     return header.substr(scheme.size());
 }
 
+/// The origin of the web page that sends the request: an image has no Origin, but a Referer.
+std::string_view page_of(const http::Request& request) {
+    const std::string_view origin = request.header("origin");
+    if (!origin.empty()) return origin;
+    const std::string_view referer = request.header("referer");
+    const std::size_t host = referer.find("://");
+    if (host == std::string_view::npos) return {};
+    return referer.substr(0, referer.find('/', host + 3));
+}
+
 }  // namespace
 
 void Access::admit(http::Request& request) {
     allow_origin(request);
     if (request.method == "OPTIONS" || request.path.rfind("/v1/", 0) != 0) return;
-    check_key(request);
+    const Grant grant = check_key(request);
     count(request);
+    const auto model_of_job = [&](const std::string& id) {
+        const auto job = jobs_.find(request.principal, id);
+        return job ? job->model : std::string();
+    };
+    if (!allows(grant, request.method, request.path, model_of_job))
+        api::refuse("scope_refused", "this key or token is for something else than " +
+                                         request.method + " " + request.path);
+    if (grant.kind == Grant::Kind::asset) request.restriction = grant.id;
 }
 
-void Access::check_key(http::Request& request) {
-    if (!keys_.has_keys()) {
+Grant Access::check_key(http::Request& request) {
+    const bool open = !keys_.has_keys();
+    if (open) {
         check_client(request);
         check_page(request, rules_.listen_host, rules_.allowed_origins);
-        return;
     }
-    const auto key = bearer(request.header("authorization"));
+    auto key = bearer(request.header("authorization"));
+    if (const auto token = request.query.find("token"); !key && token != request.query.end())
+        key = token->second;
+    if (key && (request.query.contains("token") || key->starts_with(Tokens::prefix)))
+        return check_token(request, *key, open);
+    if (open) return {};
     if (!key) api::refuse("key_missing", "send your API key: Authorization: Bearer KEY");
-    const auto id = keys_.check(*key);
-    if (!id) api::refuse("key_unknown", "this API key is not known, or was revoked");
-    request.principal = *id;
+    const auto good = keys_.check(*key);
+    if (!good)
+        api::refuse("key_unknown", "this API key is not known, was revoked, or its time is over");
+    request.principal = good->id;
+    return grant_of(good->scope);
+}
+
+Grant Access::check_token(http::Request& request, std::string_view token, bool open) {
+    const auto claims = tokens_.opened(token);
+    if (!claims || (open ? !claims->key.empty() : !keys_.is_good(claims->key)))
+        api::refuse("token_invalid",
+                    "this token is not one, its time is over, or its key is no longer good");
+    const auto& origins = claims->origins;
+    if (!origins.empty() &&
+        std::find(origins.begin(), origins.end(), page_of(request)) == origins.end())
+        api::refuse("origin_refused", "this token is for other web pages");
+    request.principal = claims->key;
+    return Tokens::grant_of(*claims);
 }
 
 void Access::count(http::Request& request) {

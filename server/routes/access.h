@@ -5,7 +5,8 @@
 #include <mutex>
 
 #include "server/http/http.h"
-#include "server/jobs/key_store.h"
+#include "server/jobs/job_store.h"
+#include "server/routes/grant.h"
 
 namespace lastflat::server {
 
@@ -16,11 +17,13 @@ struct AccessRules {
 };
 
 /// Decides about every request before its body is read. With at least one key, every path under
-/// /v1 needs a good one; without any, only this machine's user is answered (own_machine.h).
+/// /v1 needs a good one; without any, only this machine's user is answered (own_machine.h). A token
+/// goes in the key's place, or into the field `token` of the query; it is good as long as its key.
 class Access {
 public:
-    /// `keys` must outlive it.
-    Access(KeyStore& keys, AccessRules rules) : keys_(keys), rules_(std::move(rules)) {}
+    /// All must outlive it.
+    Access(KeyStore& keys, JobStore& jobs, const Tokens& tokens, AccessRules rules)
+        : keys_(keys), jobs_(jobs), tokens_(tokens), rules_(std::move(rules)) {}
 
     /// Sets the principal and the headers of the answer. Throws: api::Refusal (401, 403, 429),
     /// StoreError.
@@ -30,7 +33,8 @@ public:
         std::string_view origin) const;
 
 private:
-    void check_key(http::Request& request);
+    [[nodiscard]] Grant check_key(http::Request& request);
+    [[nodiscard]] Grant check_token(http::Request& request, std::string_view token, bool open);
     void count(http::Request& request);
     void allow_origin(http::Request& request) const;
 
@@ -39,6 +43,8 @@ private:
         std::size_t requests = 0;
     };
     KeyStore& keys_;
+    JobStore& jobs_;
+    const Tokens& tokens_;
     const AccessRules rules_;
     std::mutex mutex_;
     std::map<std::string, Window> windows_;  ///< by key

@@ -133,8 +133,12 @@ http::Response events(const EventServices& service, const http::Request& request
 }  // namespace
 
 http::Route event_route(const EventServices& service) {
-    return {"GET", "/v1/jobs/{id}/events",
-            [service](const http::Request& request) { return events(service, request); }};
+    return {"GET",
+            "/v1/jobs/{id}/events",
+            [service](const http::Request& request) { return events(service, request); },
+            false,
+            false,
+            {"token"}};
 }
 
 }  // namespace lastflat::server

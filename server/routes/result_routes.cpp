@@ -91,20 +91,28 @@ std::vector<http::Route> result_routes(const ResultServices& service) {
          },
          false,
          false,
-         {"format"}},
-        {"GET", "/v1/jobs/{id}/metrics",
+         {"format", "token"}},
+        {"GET",
+         "/v1/jobs/{id}/metrics",
          [service](const Request& request) {
              const JobRecord job = finished_job(service, request);
              return part_response(service, request, job, "metrics", "application/json",
                                   job.id + ".metrics.json");
-         }},
+         },
+         false,
+         false,
+         {"token"}},
         {"POST", "/v1/jobs/{id}/map",
          [service](const Request& request) { return map_points(service, request); }, true}};
     for (const auto& [word, format] : api::result_formats) {
-        routes.push_back({"GET", "/v1/jobs/{id}/result." + std::string(word),
+        routes.push_back({"GET",
+                          "/v1/jobs/{id}/result." + std::string(word),
                           [service, format = format](const Request& request) {
                               return result_as(service, request, format);
-                          }});
+                          },
+                          false,
+                          false,
+                          {"token"}});
     }
     return routes;
 }

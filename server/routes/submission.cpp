@@ -117,13 +117,24 @@ Submission submission_of(api::JsonSubmission json, const std::string& pointer) {
     return checked(std::move(submission), json.request);
 }
 
-Submission read_submission(const http::Request& request) {
+namespace {
+
+Submission read_any_submission(const http::Request& request) {
     if (is_form(request)) return from_parts(request);
     if (!request.body.empty() && request.body.front().media_type == "application/json") {
         const LargeBodyTurn turn(request.body.front().bytes.size());
         return submission_of(api::json_submission_from_json(request.body.front().bytes));
     }
     return from_model_alone(request);
+}
+
+}  // namespace
+
+Submission read_submission(const http::Request& request) {
+    Submission submission = read_any_submission(request);
+    if (!request.restriction.empty() && submission.asset != request.restriction)
+        api::refuse("scope_refused", "this token is for the asset " + request.restriction);
+    return submission;
 }
 
 void read_terms(const http::Request& request, Submission& submission) {

@@ -10,6 +10,16 @@ namespace {
 constexpr std::string_view key_prefix = "lastflat_";
 constexpr std::size_t id_bytes = 6, secret_bytes = 32;
 
+constexpr const char* select_good =
+    "SELECT hash, scope FROM keys WHERE id = ? AND revoked_ms IS NULL AND "
+    "(expires_ms IS NULL OR expires_ms > ?)";
+
+KeyScope scope_of(const std::string& word) {
+    const auto scope = api::value_of(key_scopes, word);
+    if (!scope) throw StoreError("the database has a key of the unknown scope '" + word + "'");
+    return *scope;
+}
+
 }  // namespace
 
 AssetAdmission SqliteAssets::add(const std::string& owner, const std::string& digest,
@@ -64,12 +74,15 @@ bool SqliteAssets::remove(const std::string& owner, const std::string& digest) {
     });
 }
 
-std::string SqliteKeys::add(const std::string& name) {
+std::string SqliteKeys::add(const NewKey& made) {
     const std::string id = hexadecimal(random_bytes(id_bytes));
     std::string key = std::string(key_prefix) + id + "_" + hexadecimal(random_bytes(secret_bytes));
     database_.write([&](SqliteConnection& connection) {
-        Query(connection.prepared("INSERT INTO keys VALUES (?, ?, ?, ?, NULL)"))
-            .bind(id, name, sha256(key), now_ms())
+        Query(
+            connection.prepared("INSERT INTO keys (id, name, hash, created_ms, scope, expires_ms) "
+                                "VALUES (?, ?, ?, ?, ?, ?)"))
+            .bind(id, made.name, sha256(key), now_ms(), api::word_of(key_scopes, made.scope),
+                  made.expires_ms)
             .run();
     });
     return key;
@@ -87,25 +100,35 @@ bool SqliteKeys::revoke(const std::string& id) {
 std::vector<ApiKey> SqliteKeys::list() {
     return database_.read([](SqliteConnection& connection) {
         Query query(connection.prepared(
-            "SELECT id, name, created_ms, revoked_ms FROM keys ORDER BY created_ms"));
+            "SELECT id, name, created_ms, revoked_ms, scope, expires_ms FROM keys "
+            "ORDER BY created_ms"));
         std::vector<ApiKey> keys;
         while (query.next()) {
-            keys.push_back({query.text(0), query.text(1), query.number(2), query.maybe_number(3)});
+            keys.push_back({{query.text(1), scope_of(query.text(4)), query.maybe_number(5)},
+                            query.text(0),
+                            query.number(2),
+                            query.maybe_number(3)});
         }
         return keys;
     });
 }
 
-std::optional<std::string> SqliteKeys::check(std::string_view key) {
+std::optional<GoodKey> SqliteKeys::check(std::string_view key) {
     if (key.substr(0, key_prefix.size()) != key_prefix) return std::nullopt;
     const std::string id(key.substr(key_prefix.size(), 2 * id_bytes));
     const std::string hash = sha256(key);
-    return database_.read([&](SqliteConnection& connection) -> std::optional<std::string> {
-        Query query(
-            connection.prepared("SELECT hash FROM keys WHERE id = ? AND revoked_ms IS NULL"));
-        if (!query.bind(id).next() || !equal_in_constant_time(query.text(0), hash))
+    return database_.read([&](SqliteConnection& connection) -> std::optional<GoodKey> {
+        Query query(connection.prepared(select_good));
+        if (!query.bind(id, now_ms()).next() || !equal_in_constant_time(query.text(0), hash))
             return std::nullopt;
-        return id;
+        return GoodKey{id, scope_of(query.text(1))};
+    });
+}
+
+bool SqliteKeys::is_good(const std::string& id) {
+    return database_.read([&](SqliteConnection& connection) {
+        Query query(connection.prepared(select_good));
+        return query.bind(id, now_ms()).next();
     });
 }
 

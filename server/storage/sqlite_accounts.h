@@ -25,10 +25,11 @@ private:
 class SqliteKeys final : public KeyStore {
 public:
     explicit SqliteKeys(SqliteDatabase& database) : database_(database) {}
-    [[nodiscard]] std::string add(const std::string& name) override;
+    [[nodiscard]] std::string add(const NewKey& key) override;
     [[nodiscard]] bool revoke(const std::string& id) override;
     [[nodiscard]] std::vector<ApiKey> list() override;
-    [[nodiscard]] std::optional<std::string> check(std::string_view key) override;
+    [[nodiscard]] std::optional<GoodKey> check(std::string_view key) override;
+    [[nodiscard]] bool is_good(const std::string& id) override;
     [[nodiscard]] bool has_keys() override;
     [[nodiscard]] std::string secret(const std::string& name) override;
 

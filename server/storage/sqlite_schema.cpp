@@ -321,6 +321,10 @@ CREATE TABLE questions (
     question TEXT NOT NULL
 );
 CREATE INDEX questions_by_text ON questions (owner, question, seq);
+)sql",
+                                R"sql(
+ALTER TABLE keys ADD COLUMN scope TEXT NOT NULL DEFAULT 'all';
+ALTER TABLE keys ADD COLUMN expires_ms INTEGER;
 )sql"};
 
 }  // namespace

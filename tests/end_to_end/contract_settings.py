@@ -26,6 +26,7 @@ def walk_keys(program, contract, example):
             Walk(server, contract, ["Authorization: Bearer " + keys[0] + "0"]).expect(401, "key_unknown", "GET", "/v1/jobs")
             id = one.post(base64.b64decode(example["model"]["data"]), example["request"])
             one.wait_for(id, "succeeded")
+            walk_tokens(one, nobody, id)
             two.expect(404, "job_not_found", "GET", "/v1/jobs/{id}", id=id)
             two.expect(404, "job_not_found", "DELETE", "/v1/jobs/{id}", id=id)
             assert two.expect(200, None, "GET", "/v1/jobs")["items"] == []
@@ -55,6 +56,30 @@ def walk_keys(program, contract, example):
             two.expect(401, "key_unknown", "GET", "/v1/jobs")
         finally:
             server.stop()
+
+
+def walk_tokens(one, nobody, id):
+    """A token is made, used in both places, and good for what it is for alone."""
+    make = lambda status, code, body, walk=one: walk.expect(
+        status, code, "POST", "/v1/tokens", headers=["Content-Type: application/json"], body=json.dumps(body).encode())
+    token = make(201, None, {"scope": "job:" + id, "expires_in_s": 60})["token"]
+    paths = ["result", "result.json", "result.svg", "result.glb", "result.obj", "metrics", "events"]
+    for method in ("GET", "HEAD"):
+        for path in paths:
+            nobody.expect(200, None, method, "/v1/jobs/{id}/" + path, id=id, query="?token=" + token)
+            nobody.expect(401, "token_invalid" if method == "GET" else None, method, "/v1/jobs/{id}/" + path, id=id, query="?token=x")
+    holder = Walk(one.server, one.contract, ["Authorization: bearer " + token])
+    holder.expect(200, None, "GET", "/v1/jobs/{id}", id=id)
+    holder.expect(403, "scope_refused", "GET", "/v1/jobs")
+    make(403, "scope_refused", {"scope": "submit"}, holder)
+    for scope in ("", "all", "job:" + id + "0", "job:", "asset:" + id):
+        make(422, "invalid_request", {"scope": scope})
+    make(422, "invalid_request", {})
+    make(422, "invalid_request", {"scope": "submit", "expires_in_s": 86401})
+    make(422, "invalid_request", {"scope": "submit", "origins": ["shop.example"]})
+    one.expect(415, "media_type_unsupported", "POST", "/v1/tokens", body=b"{}")
+    page = make(201, None, {"scope": "submit", "origins": ["https://shop.example"]})["token"]
+    nobody.expect(403, "origin_refused", "POST", "/v1/jobs", headers=["Authorization: Bearer " + page], body=b"v 0 0 0\n")
 
 
 def walk_webhooks(program, contract, example):

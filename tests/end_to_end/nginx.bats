@@ -27,7 +27,7 @@ setup() {
         echo "http { access_log off;"
         for kind in client_body proxy fastcgi uwsgi scgi; do echo "${kind}_temp_path $folder/$kind;"; done
         sed -e "s/127.0.0.1:8080/${backend#http://}/" -e "s/listen 80;/listen 127.0.0.1:$port;/" \
-            -e 's/client_max_body_size 256m/client_max_body_size 12m/' "$BATS_TEST_DIRNAME/../../server/deploy/nginx.conf"
+            -e "s,/var/log/nginx,$folder," -e 's/client_max_body_size 256m/client_max_body_size 12m/' "$BATS_TEST_DIRNAME/../../server/deploy/nginx.conf"
         echo "}"
     } > "$folder/nginx.conf"
     nginx -q -c "$folder/nginx.conf" -p "$folder" 2> "$folder/said" || { cat "$folder/said" >&2; return 1; }
@@ -40,6 +40,10 @@ teardown() {
 
 @test "jobs, results, long polls and events pass through" {
     flatten "$sample/last.obj" "$sample/last.request.json"
+    token=$(curl -sSf -H 'Content-Type: application/json' --data "{\"scope\": \"job:${job##*/}\"}" "$url/v1/tokens" | jq -r .token)
+    CURL_HOME=/ curl -sSf "$url$job/result.svg?token=$token" | grep -q '<svg'
+    grep -q "GET $job/result.svg\" 200" "$folder/lastflat.log"
+    ! grep -qF "$token" "$folder/lastflat.log"
     curl -sSf "$url$job/result" -o "$BATS_TEST_TMPDIR/there"
     curl -sSf "$backend$job/result" | cmp - "$BATS_TEST_TMPDIR/there"
     ask -H 'Prefer: wait=30' -F "model=@$sample/last.obj" -F "request=@$sample/last.request.json" "$url/v1/jobs"

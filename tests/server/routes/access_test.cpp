@@ -8,6 +8,8 @@
 #include "server/routes/answers.h"
 #include "server/routes/own_machine.h"
 #include "server/storage/sqlite_accounts.h"
+#include "server/storage/sqlite_store.h"
+#include "server/support/clock.h"
 #include "server/support/duration.h"
 #include "server/support/files.h"
 #include "server/support/metrics.h"
@@ -20,9 +22,11 @@ struct AccessSetting {
     lastflat::test::TemporaryFolder folder;
     SqliteDatabase database{folder.path() / "jobs.sqlite"};
     SqliteKeys keys{database};
+    SqliteStore jobs{database, {}};
+    const Tokens tokens{keys.secret("tokens")};
     Access access;
 
-    explicit AccessSetting(AccessRules rules = {}) : access(keys, std::move(rules)) {}
+    explicit AccessSetting(AccessRules rules = {}) : access(keys, jobs, tokens, std::move(rules)) {}
 
     static http::Request request(const std::string& key, const std::string& from = "127.0.0.1",
                                  const std::string& path = "/v1/jobs") {
@@ -32,6 +36,15 @@ struct AccessSetting {
         request.remote_address = from;
         if (!key.empty()) request.headers["authorization"] = "Bearer " + key;
         return request;
+    }
+    /// The code of what it is refused with; empty: it is not.
+    std::string code(http::Request request) {
+        try {
+            access.admit(request);
+            return {};
+        } catch (const api::Refusal& refusal) {
+            return std::string(refusal.problem().code.word());
+        }
     }
     int status(http::Request request) {
         try {
@@ -43,6 +56,17 @@ struct AccessSetting {
     }
 };
 
+const std::string some_job(26, '0'), some_asset(64, 'a');
+
+/// With a token in the query.
+http::Request with_token(const std::string& token, const std::string& method,
+                         const std::string& path) {
+    http::Request request = AccessSetting::request("", "10.0.0.9", path);
+    request.method = method;
+    request.query["token"] = token;
+    return request;
+}
+
 std::string header(const http::Request& request, const std::string& name) {
     for (const auto& [n, value] : request.answer_headers) {
         if (n == name) return value;
@@ -53,6 +77,122 @@ std::string header(const http::Request& request, const std::string& name) {
 }  // namespace
 
 TEST_SUITE("server/routes/access") {
+    TEST_CASE("a key does what it is for, as long as it is for") {
+        AccessSetting s;
+        const std::string look = s.keys.add({"look", KeyScope::read}),
+                          work = s.keys.add({"work", KeyScope::jobs}),
+                          over = s.keys.add({"over", KeyScope::all, now_ms() - 1});
+        const auto asked = [&](const std::string& key, const char* method, const char* path) {
+            http::Request request = s.request(key, "10.0.0.9", path);
+            request.method = method;
+            return s.code(request);
+        };
+        CHECK(asked(look, "GET", "/v1/jobs") == "");
+        CHECK(asked(look, "POST", "/v1/jobs/ID/map") == "");
+        for (const char* path : {"/v1/jobs", "/v1/assets", "/v1/validate", "/v1/tokens"})
+            CHECK(asked(look, "POST", path) == "scope_refused");
+        for (const char* path : {"/v1/jobs", "/v1/jobs:batch", "/v1/assets", "/v1/validate",
+                                 "/v1/jobs/ID/cancel", "/v1/batches/ID/cancel"})
+            CHECK(asked(work, "POST", path) == "");
+        CHECK(asked(work, "DELETE", "/v1/jobs/ID") == "scope_refused");
+        CHECK(asked(work, "POST", "/v1/webhooks") == "scope_refused");
+        CHECK(asked(work, "POST", "/v1/tokens") == "scope_refused");
+        CHECK(asked(over, "GET", "/v1/jobs") == "key_unknown");
+    }
+
+    TEST_CASE("a token does one thing, for a while, and dies with its key") {
+        AccessSetting s;
+        const std::string key = s.keys.add({"one"});
+        const std::string id = s.keys.check(key)->id;
+        const auto token = [&](const std::string& scope, std::int64_t ms = 60'000) {
+            return s.tokens.sealed({id, scope, now_ms() + ms});
+        };
+        const std::string job = token("job:" + some_job), path = "/v1/jobs/" + some_job;
+        http::Request request = with_token(job, "GET", path + "/events");
+        CHECK_NOTHROW(s.access.admit(request));
+        CHECK(request.principal == id);
+        CHECK(s.code(s.request(job, "10.0.0.9", path + "/result")) == "");
+        CHECK(s.code(with_token(job, "POST", path + "/map")) == "");
+        CHECK(s.code(with_token(job, "POST", path + "/cancel")) == "scope_refused");
+        CHECK(s.code(with_token(job, "DELETE", path)) == "scope_refused");
+        CHECK(s.code(with_token(job, "GET", path + "0")) == "scope_refused");
+        CHECK(s.code(with_token(job, "GET", "/v1/jobs")) == "scope_refused");
+        CHECK(s.code(with_token(job, "POST", "/v1/tokens")) == "scope_refused");
+
+        const std::string submit = token("submit");
+        for (const char* to : {"/v1/jobs", "/v1/assets", "/v1/validate"}) {
+            CHECK(s.code(with_token(submit, "POST", to)) == "");
+            CHECK(s.code(with_token(submit, "GET", to)) == "scope_refused");
+        }
+        CHECK(s.code(with_token(submit, "POST", "/v1/tokens")) == "scope_refused");
+
+        std::string other = job;
+        other[Tokens::prefix.size() + 20] ^= 1;
+        const std::string key_in_query = key;
+        for (const std::string& wrong :
+             {other, job.substr(0, job.size() - 1), job + "x", token("submit", -1), key_in_query,
+              std::string(), std::string(Tokens::prefix),
+              Tokens("another").sealed({id, "submit", now_ms() + 60'000}),
+              s.tokens.sealed({"nobody", "submit", now_ms() + 60'000}),
+              s.tokens.sealed({"", "submit", now_ms() + 60'000})})
+            CHECK(s.code(with_token(wrong, "POST", "/v1/jobs")) == "token_invalid");
+        REQUIRE(s.keys.revoke(id));
+        CHECK(s.code(with_token(job, "GET", path)) == "token_invalid");
+    }
+
+    TEST_CASE("a token of an asset makes jobs of it and follows those") {
+        AccessSetting s;
+        const std::string id = s.keys.check(s.keys.add({"one"}))->id;
+        NewJob own;
+        own.id = some_job;
+        own.owner = id;
+        own.model = some_asset;
+        NewJob others = own;
+        others.id = std::string(26, '1');
+        others.model = std::string(64, 'b');
+        REQUIRE(s.jobs.add(own, {}).admission == Admission::queued);
+        REQUIRE(s.jobs.add(others, {}).admission == Admission::queued);
+        const std::string token = s.tokens.sealed({id, "asset:" + some_asset, now_ms() + 60'000});
+        http::Request submission = with_token(token, "POST", "/v1/jobs");
+        CHECK_NOTHROW(s.access.admit(submission));
+        CHECK(submission.restriction == some_asset);
+        CHECK(s.code(with_token(token, "GET", "/v1/assets/" + some_asset)) == "");
+        CHECK(s.code(with_token(token, "DELETE", "/v1/assets/" + some_asset)) == "scope_refused");
+        CHECK(s.code(with_token(token, "GET", "/v1/jobs/" + own.id + "/result")) == "");
+        CHECK(s.code(with_token(token, "POST", "/v1/jobs/" + own.id + "/cancel")) == "");
+        CHECK(s.code(with_token(token, "GET", "/v1/jobs/" + others.id)) == "scope_refused");
+        CHECK(s.code(with_token(token, "POST", "/v1/jobs:batch")) == "scope_refused");
+    }
+
+    TEST_CASE("a token for web pages is used by those alone") {
+        AccessSetting s;
+        const std::string id = s.keys.check(s.keys.add({"one"}))->id;
+        const std::string token =
+            s.tokens.sealed({id, "submit", now_ms() + 60'000, {"https://shop.example"}});
+        const auto from = [&](const char* name, const char* value) {
+            http::Request request = with_token(token, "POST", "/v1/jobs");
+            request.headers[name] = value;
+            return s.code(request);
+        };
+        CHECK(from("origin", "https://shop.example") == "");
+        CHECK(from("referer", "https://shop.example/last/4711") == "");
+        CHECK(from("referer", "https://shop.example") == "");
+        CHECK(from("origin", "https://evil.example") == "origin_refused");
+        CHECK(from("referer", "https://shop.example.evil/") == "origin_refused");
+        CHECK(from("accept", "*/*") == "origin_refused");
+    }
+
+    TEST_CASE("tokens of an open service are good while it is open") {
+        AccessSetting s;
+        const std::string token = s.tokens.sealed({"", "submit", now_ms() + 60'000});
+        http::Request here = with_token(token, "POST", "/v1/jobs");
+        CHECK(s.code(here) == "no_keys");  // it is not this machine
+        here.remote_address = "127.0.0.1";
+        CHECK(s.code(here) == "");
+        (void)s.keys.add({"one"});
+        CHECK(s.code(here) == "token_invalid");
+    }
+
     TEST_CASE("without a key, this machine is answered and no other; with one, its bearer alone") {
         AccessSetting s;
         CHECK(s.status(s.request("")) == 200);
@@ -67,7 +207,7 @@ TEST_SUITE("server/routes/access") {
             proxied.headers[by] = "203.0.113.9";
             CHECK(s.status(proxied) == 401);
         }
-        const std::string key = s.keys.add("one");
+        const std::string key = s.keys.add({"one"});
         CHECK(s.status(s.request("")) == 401);
         CHECK(s.status(s.request("wrong")) == 401);
         CHECK(s.status(s.request(key, "192.168.0.7")) == 200);
@@ -115,7 +255,7 @@ TEST_SUITE("server/routes/access") {
         http::Request page = s.request("", "127.0.0.1", "/docs");
         page.headers["sec-fetch-site"] = "cross-site";
         CHECK(s.status(page) == 200);
-        const std::string key = s.keys.add("one");
+        const std::string key = s.keys.add({"one"});
         CHECK(with("lasts.example", "origin", "https://evil.example", key) == 200);
     }
 
@@ -128,7 +268,7 @@ TEST_SUITE("server/routes/access") {
 
     TEST_CASE("a key has its rate, says what is left, and shares it with nobody") {
         AccessSetting s({3, {}, ""});
-        const std::string one = s.keys.add("one"), two = s.keys.add("two");
+        const std::string one = s.keys.add({"one"}), two = s.keys.add({"two"});
         http::Request first = s.request(one);
         s.access.admit(first);
         CHECK(header(first, "RateLimit-Policy") == "\"default\";q=3;w=60");
@@ -142,7 +282,7 @@ TEST_SUITE("server/routes/access") {
 
     TEST_CASE("only the web pages that are allowed may call") {
         AccessSetting s({0, {"https://studio.example"}, ""});
-        const std::string key = s.keys.add("one");
+        const std::string key = s.keys.add({"one"});
         const auto allowed = [&](const char* origin) {
             http::Request request = s.request(key);
             request.headers["origin"] = origin;

@@ -118,7 +118,7 @@ TEST_SUITE("server/storage/data_directory") {
         const auto elsewhere = folder.path() / "elsewhere";
         std::filesystem::rename(file, elsewhere);
         CHECK_THROWS_AS(database.check(), StoreError);
-        CHECK_THROWS_AS((void)SqliteKeys(database).add("key"), StoreError);
+        CHECK_THROWS_AS((void)SqliteKeys(database).add({"key"}), StoreError);
         std::filesystem::copy_file(elsewhere, file);
         CHECK_THROWS_AS(database.check(), StoreError);
         std::filesystem::rename(elsewhere, file);
@@ -150,9 +150,9 @@ TEST_SUITE("server/storage/sqlite_accounts") {
         SqliteDatabase database(folder.path() / "jobs.sqlite");
         SqliteKeys keys(database);
         CHECK_FALSE(keys.has_keys());
-        const std::string key = keys.add("factory");
+        const std::string key = keys.add({"factory"});
         CHECK(keys.has_keys());
-        const std::string id = keys.check(key).value();
+        const std::string id = keys.check(key)->id;
         CHECK(keys.list().at(0).id == id);
         for (const std::string& wrong :
              {key + "x", key.substr(0, key.size() - 1), std::string(), std::string("lastflat_"),
