@@ -1,8 +1,10 @@
 #include "api/geometry_text.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "api/json.h"
@@ -99,20 +101,29 @@ void append_sources(std::string& text, const Region& region, const SourceIds& so
     append_or_null(text, triangles);
 }
 
-/// Vertices of the file that lie at more than one place of the pattern.
-Json seam_vertices(const FlattenResult& result) {
-    std::map<Index, Json> places;
+/// Calls with every vertex of every region that is one of the file: its id there, the region, the
+/// vertex.
+template <class Visit>
+void for_each_file_vertex(const FlattenResult& result, const Visit& visit) {
     for (const FlatRegion& flat : result.regions) {
         for (Index v = 0; at(v) < flat.region.source_vertices.size(); ++v) {
             if (const auto id = result.sources.file_vertex(flat.region.source_vertices[at(v)]))
-                places[*id].push_back({{"region", flat.region.name}, {"vertex", v}});
+                visit(*id, flat.region, v);
         }
     }
+}
+
+/// Vertices of the file that lie at more than one place of the pattern.
+Json seam_vertices(const FlattenResult& result) {
+    std::vector<std::uint32_t> counts(result.sources.vertices, 0);
+    for_each_file_vertex(result, [&](Index id, const Region&, Index) { ++counts[at(id)]; });
+    std::map<Index, Json> places;
+    for_each_file_vertex(result, [&](Index id, const Region& region, Index v) {
+        if (counts[at(id)] > 1) places[id].push_back({{"region", region.name}, {"vertex", v}});
+    });
     Json list = Json::array();
-    for (auto& [vertex, found] : places) {
-        if (found.size() > 1)
-            list.push_back({{"source_vertex", vertex}, {"places", std::move(found)}});
-    }
+    for (auto& [vertex, found] : places)
+        list.push_back({{"source_vertex", vertex}, {"places", std::move(found)}});
     return list;
 }
 
@@ -135,9 +146,10 @@ std::string model_text(const FlattenResult& result) {
     const SourceIds& sources = result.sources;
     std::string text = "\"model\":{\"vertices\":" + std::to_string(sources.vertices) +
                        ",\"triangles\":" + std::to_string(sources.triangles) + ",\"welded_to\":";
-    const bool any_welded =
-        !std::is_sorted(sources.welded_to.begin(), sources.welded_to.end(), std::less_equal<>());
-    append(text, any_welded ? sources.welded_to : std::vector<Index>());
+    const auto& weld = sources.welded_to;
+    const bool any_welded =  // else they are 0, 1, 2 ...
+        std::adjacent_find(weld.begin(), weld.end(), std::greater_equal<>()) != weld.end();
+    append(text, any_welded ? weld : std::vector<Index>());
     return text + ",\"seam_vertices\":" + text_of(seam_vertices(result)) + "}";
 }
 

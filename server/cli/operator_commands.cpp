@@ -99,6 +99,14 @@ private:
     std::size_t jobs_ = 0, faults_ = 0;
 };
 
+/// For people.
+std::string state_of(const ApiKey& key) {
+    if (key.revoked_ms) return "revoked";
+    if (!key.expires_ms) return "good";
+    return (*key.expires_ms > now_ms() ? "good until " : "expired ") +
+           api::rfc3339(*key.expires_ms);
+}
+
 }  // namespace
 
 int add_key_command(const std::string& data, const NewKey& key) {
@@ -111,17 +119,6 @@ int add_key_command(const std::string& data, const NewKey& key) {
     std::cerr << "Keep it: it is stored as a hash and cannot be shown again.\n";
     return 0;
 }
-
-namespace {
-
-std::string state_of(const ApiKey& key) {
-    if (key.revoked_ms) return "revoked";
-    if (!key.expires_ms) return "good";
-    return (*key.expires_ms > now_ms() ? "good until " : "expired ") +
-           api::rfc3339(*key.expires_ms);
-}
-
-}  // namespace
 
 int revoke_key_command(const std::string& data, const std::string& id) {
     SqliteDatabase database(existing_database(data));

@@ -32,6 +32,7 @@ NewJob new_job(const Submission& submission) {
                                                                   : api::JobPriority::batch);
     job.request = submission.request;
     job.fresh = submission.fresh;
+    job.question = sha256(std::string(build) + "\n" + api::without_tag(submission.request));
     job.idempotency_key = submission.idempotency_key;
     if (const auto after = duration_ms(submission.cancel_after))
         job.cancel_at_ms = now_ms() + *after;
@@ -120,8 +121,7 @@ void JobIntake::complete(const Submission& submission, NewJob& job, const BlobSt
     job.model = digest_of_model(submission, job, own);
     job.fingerprint = sha256(job.model + "\n" + submission.cancel_after + "\n" + job.request +
                              webhook_print(job));
-    job.question =
-        sha256(std::string(build) + "\n" + job.model + "\n" + api::without_tag(submission.request));
+    job.question = sha256(job.question + "\n" + job.model);
     const std::string answer = jobs_.answer(job);
     if (!answer.empty() && !std::filesystem::exists(blobs_.path_of(answer))) job.fresh = true;
 }

@@ -6,7 +6,7 @@
 
 #include "server/http/http.h"
 #include "server/jobs/job_store.h"
-#include "server/routes/grant.h"
+#include "server/routes/tokens.h"
 
 namespace lastflat::server {
 

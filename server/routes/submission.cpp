@@ -90,6 +90,15 @@ bool is_form(const http::Request& request) {
                       [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; });
 }
 
+Submission read_any_submission(const http::Request& request) {
+    if (is_form(request)) return from_parts(request);
+    if (!request.body.empty() && request.body.front().media_type == "application/json") {
+        const LargeBodyTurn turn(request.body.front().bytes.size());
+        return submission_of(api::json_submission_from_json(request.body.front().bytes));
+    }
+    return from_model_alone(request);
+}
+
 /// The key of a request; quoted as the draft has it, or bare.
 std::string idempotency_key(const http::Request& request) {
     std::string_view key = request.header("idempotency-key");
@@ -116,19 +125,6 @@ Submission submission_of(api::JsonSubmission json, const std::string& pointer) {
     submission.webhook = std::move(json.webhook);
     return checked(std::move(submission), json.request);
 }
-
-namespace {
-
-Submission read_any_submission(const http::Request& request) {
-    if (is_form(request)) return from_parts(request);
-    if (!request.body.empty() && request.body.front().media_type == "application/json") {
-        const LargeBodyTurn turn(request.body.front().bytes.size());
-        return submission_of(api::json_submission_from_json(request.body.front().bytes));
-    }
-    return from_model_alone(request);
-}
-
-}  // namespace
 
 Submission read_submission(const http::Request& request) {
     Submission submission = read_any_submission(request);

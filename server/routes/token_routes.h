@@ -2,7 +2,7 @@
 #pragma once
 
 #include "server/http/http.h"
-#include "server/routes/grant.h"
+#include "server/routes/tokens.h"
 
 namespace lastflat::server {
 
