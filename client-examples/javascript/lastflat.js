@@ -164,15 +164,29 @@ export class Lastflat {
    * @returns {Promise<Job>}
    */
   async #follow(job, {onProgress, signal}) {
-    try {
-      for await (const {event, data} of this.events(job.id, signal)) {
-        if (event === "progress") onProgress?.(data);
-        if (event === "done") job = data;
+    const stream = this.events(job.id, signal);
+    /**
+     * A stream that cannot be had or breaks off has ended.
+     * @returns {Promise<IteratorResult<ServerEvent, void>>}
+     */
+    const next = async () => {
+      try {
+        return await stream.next();
+      } catch (error) {
+        if (signal?.aborted || !mayPass(error)) throw error;
+        return {done: true, value: undefined};
       }
-    } catch (error) {
-      if (signal?.aborted || !mayPass(error)) throw error;
+    };
+    for (let read = await next(); !read.done; read = await next()) {
+      if (read.value.event === "progress") onProgress?.(read.value.data);
+      if (read.value.event === "done") job = read.value.data;
     }
-    while (!ended.includes(job.state)) job = await this.job(job.id, {wait: 30, signal});
+    while (!ended.includes(job.state)) {
+      job = await this.job(job.id, {wait: 30, signal});
+      if (ended.includes(job.state)) break;
+      onProgress?.(job.progress);
+      await pause(1000, signal);  // all places to wait may be taken: then the answer comes at once
+    }
     if (job.state === "succeeded") return job;
     throw new LastflatError(job.error ?? {status: 409, code: "canceled", title: "canceled", detail: "the job was canceled"});
   }

@@ -61,6 +61,7 @@ struct Request {
     std::vector<BodyPart> body;         ///< empty for a request without one
     std::string principal;              ///< who asks, as `Admit` found out
     std::string restriction;            ///< what of the principal's alone it may use; empty: all
+    bool is_limited = false;            ///< it may not do all that the principal may
     std::vector<std::pair<std::string, std::string>> answer_headers;  ///< whatever the answer is
     WaitingRoom* waiting_room = nullptr;
     std::function<bool()> is_client_gone;  ///< it has hung up; while the handler runs
@@ -126,8 +127,9 @@ using ProblemMaker =
     std::function<Response(const Request& request, const std::exception_ptr& thrown)>;
 
 /// Decides about a request before its body is read; what it throws ends the request. May set
-/// `restriction` and `principal`, which then is the client whose connections are counted together
-/// (else those of an address are), and `answer_headers`. Called on connection threads.
+/// `restriction`, `is_limited` and `principal`, which then is the client whose connections are
+/// counted together (else those of an address are), and `answer_headers`. Called on connection
+/// threads.
 using Admit = std::function<void(Request&)>;
 
 struct AnswerReport {

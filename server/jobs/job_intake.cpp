@@ -156,7 +156,9 @@ Submitted JobIntake::submit(const Submission& submission) {
         }();
         if (admitted.admission == Admission::queued) {
             executor_.wake();
-            return {found_job(jobs_, job.owner, job.id), false};
+            JobRecord taken = found_job(jobs_, job.owner, job.id);
+            if (is_final(taken.state)) drop_unneeded(blobs_, jobs_, {job.model});  // no run will
+            return {std::move(taken), false};
         }
         drop_unneeded(blobs_, jobs_, {job.model});
         if (admitted.admission != Admission::repeated) refuse_admission(admitted.admission);
@@ -203,6 +205,7 @@ SubmittedBatch JobIntake::submit(const BatchSubmission& submission) {
         }
         if (admitted.admission == Admission::queued) {
             executor_.wake();
+            drop_models();  // of jobs that were answered at once
             return {batch.id, false};
         }
         drop_models();

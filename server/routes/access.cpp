@@ -44,6 +44,7 @@ void Access::admit(http::Request& request) {
         api::refuse("scope_refused", "this key or token is for something else than " +
                                          request.method + " " + request.path);
     if (grant.kind == Grant::Kind::asset) request.restriction = grant.id;
+    request.is_limited = grant.kind != Grant::Kind::all;
 }
 
 Grant Access::check_key(http::Request& request) {

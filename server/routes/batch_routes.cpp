@@ -39,6 +39,7 @@ SubmittedBatch submit(const BatchServices& service, const Request& request) {
     BatchSubmission batch{terms.owner, terms.idempotency_key, jobs.size(), {}};
     batch.submission = [&](std::size_t index) {
         Submission submission = submission_of(jobs.job(index), "/jobs/" + std::to_string(index));
+        check_scope(request, submission);
         submission.cancel_after = terms.cancel_after;
         submission.fresh = terms.fresh;
         if (!submission.priority) submission.priority = terms.priority;

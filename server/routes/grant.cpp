@@ -45,12 +45,13 @@ Grant grant_of(KeyScope scope) {
 bool allows(const Grant& grant, std::string_view method, std::string_view path,
             const ModelOfJob& model_of_job) {
     const bool submits = is_submission(method, path) || (method == "POST" && path == assets_path);
+    const bool looks = is_look(method, path) && !path.starts_with("/v1/webhooks");
     switch (grant.kind) {
         case Grant::Kind::all: return true;
         case Grant::Kind::jobs:
-            return is_look(method, path) || submits ||
+            return looks || submits ||
                    (method == "POST" && (path == "/v1/jobs:batch" || path.ends_with("/cancel")));
-        case Grant::Kind::read: return is_look(method, path);
+        case Grant::Kind::read: return looks;
         case Grant::Kind::submit: return submits;
         case Grant::Kind::job: return is_look(method, path) && job_of(path) == grant.id;
         case Grant::Kind::asset: return allows_asset(grant.id, method, path, model_of_job);

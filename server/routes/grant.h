@@ -13,7 +13,7 @@ struct Grant {
     enum class Kind {
         all,
         jobs,    ///< all but deleting, webhooks and tokens
-        read,    ///< looking and mapping
+        read,    ///< looking and mapping, but not at webhooks
         submit,  ///< making jobs and assets and nothing else
         job,     ///< reading one job, mapping on its result
         asset    ///< making jobs of one asset, reading and canceling those

@@ -126,10 +126,16 @@ Submission submission_of(api::JsonSubmission json, const std::string& pointer) {
     return checked(std::move(submission), json.request);
 }
 
-Submission read_submission(const http::Request& request) {
-    Submission submission = read_any_submission(request);
+void check_scope(const http::Request& request, const Submission& submission) {
     if (!request.restriction.empty() && submission.asset != request.restriction)
         api::refuse("scope_refused", "this token is for the asset " + request.restriction);
+    if (request.is_limited && submission.webhook)
+        api::refuse("scope_refused", "a webhook needs a key of scope 'all'");
+}
+
+Submission read_submission(const http::Request& request) {
+    Submission submission = read_any_submission(request);
+    check_scope(request, submission);
     return submission;
 }
 

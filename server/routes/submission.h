@@ -9,6 +9,10 @@
 
 namespace lastflat::server {
 
+/// What a key or token of a smaller scope may not name: another asset than its own, a webhook.
+/// Throws: api::Refusal (403).
+void check_scope(const http::Request& request, const Submission& submission);
+
 /// multipart/form-data with the parts `model` (and the `buffers` of a glTF, the `mtl` of an OBJ) or
 /// `asset_id` and, optional, `request`;
 /// application/json with the model in base64 or an asset's id; or the model's bytes alone, its

@@ -270,4 +270,13 @@ is_taken() { ! curl -s --max-time 0.3 "$url$job" -o "$BATS_TEST_TMPDIR/taken"; }
     ask -X DELETE "$url$first"
     ask "$url$second/result"
     assert_equal "$status" 200
+
+    # A model that was sent with what is answered is not kept; neither is that of a batch.
+    cache_control=max-age=60
+    for _ in 1 2; do ask -H 'Prefer: wait=60' -F "model=@$sample/last.glb" -F 'request={"units": "m"}' "$url/v1/jobs"; done
+    assert_equal "$(jq .cached "$body")" true
+    base64 -w0 "$sample/last.glb" | jq -Rc '{jobs: [{model: {data: .}, request: {units: "m"}}]}' > "$BATS_TEST_TMPDIR/batch"
+    ask -H 'Content-Type: application/json' -H 'Prefer: wait=60' --data-binary "@$BATS_TEST_TMPDIR/batch" "$url/v1/jobs:batch"
+    assert_equal "$(jq -c .states "$body")" '{"succeeded":1}'
+    "$LASTFLAT" doctor --data "$data" | grep -q '(0 that nothing needs;'
 }

@@ -68,6 +68,30 @@ make_token() {
     assert_problem 403 scope_refused
 }
 
+@test "a webhook needs a key that may do all, in whatever form the job is sent" {
+    stop_servers
+    start_server --webhooks any
+    jobs=$(add_key jobs --scope jobs)
+    ask "${with_key[@]}" --data-binary "@$sample/last.obj" "$url/v1/assets"
+    asset=$(jq -r .id "$body")
+    jq -nc --arg asset "$asset" \
+        '{model: {asset_id: $asset}, webhook: {url: "http://127.0.0.1:9/", secret: "whsec_MDEyMzQ1Njc4OWFiY2RlZjAxMjM0NTY3ODlhYmNkZWY="}}' > "$BATS_TEST_TMPDIR/hooked"
+    jq -c '{jobs: [., .]}' "$BATS_TEST_TMPDIR/hooked" > "$BATS_TEST_TMPDIR/batch"
+    make_token '{"scope": "submit"}'; submit=$token
+    make_token "{\"scope\": \"asset:$asset\"}"
+    for bearer in "$jobs" "$submit" "$token"; do
+        limited=(-H "Authorization: Bearer $bearer" -H 'Content-Type: application/json')
+        ask "${limited[@]}" --data-binary "@$BATS_TEST_TMPDIR/hooked" "$url/v1/jobs"
+        assert_problem 403 scope_refused
+        ask "${limited[@]}" -X PUT --data-binary "@$BATS_TEST_TMPDIR/hooked" "$url/v1/jobs/01M818EZFT08H3ZKBCZV6HRD97"
+        assert_problem 403 scope_refused
+        ask "${limited[@]}" --data-binary "@$BATS_TEST_TMPDIR/batch" "$url/v1/jobs:batch"
+        assert_problem 403 scope_refused
+    done
+    ask "${with_key[@]}" -H 'Content-Type: application/json' --data-binary "@$BATS_TEST_TMPDIR/hooked" "$url/v1/jobs"
+    assert_equal "$status" 202
+}
+
 @test "keys have a scope and an end" {
     look=$(add_key look --scope read)
     over=$(add_key over --expires 1s)

@@ -97,6 +97,8 @@ TEST_SUITE("server/routes/access") {
         CHECK(asked(work, "DELETE", "/v1/jobs/ID") == "scope_refused");
         CHECK(asked(work, "POST", "/v1/webhooks") == "scope_refused");
         CHECK(asked(work, "POST", "/v1/tokens") == "scope_refused");
+        CHECK(asked(work, "GET", "/v1/webhooks") == "scope_refused");
+        CHECK(asked(look, "GET", "/v1/webhooks") == "scope_refused");
         CHECK(asked(over, "GET", "/v1/jobs") == "key_unknown");
     }
 
