@@ -11,7 +11,7 @@ request=${2:-}
 [ -n "$request" ] && request=$(realpath "$request")
 cd "$root"
 
-tests/install.sh build client
+tests/install.sh run build client
 echo "building (a few minutes the first time) ..."
 log=$(mktemp)
 if ! { cmake --preset release && cmake --build --preset release --target lastflat; } >"$log" 2>&1; then

@@ -6,7 +6,8 @@
 #   test     what its tests, client examples and checks need beside that
 set -euo pipefail
 
-run=(libcpp-httplib0.11 libtinygltf2d libdraco7 libmeshoptimizer2d libopenmesh1 libspdlog1.10 libsqlite3-0 libssl3 libdeflate0 libcurl4 curl ca-certificates)
+run=(libcpp-httplib0.11 libtinygltf2d libdraco7 libmeshoptimizer2d libopenmesh1 libspdlog1.10 libsqlite3-0 libssl3 libdeflate0 libcurl4
+     librsvg2-bin fonts-dejavu-core curl ca-certificates)
 build=(g++ cmake ninja-build pkg-config libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev
        nlohmann-json3-dev libcpp-httplib-dev libspdlog-dev libcli11-dev libsqlitecpp-dev libsqlite3-dev libssl-dev libdeflate-dev libcurl4-openssl-dev doctest-dev)
 client=(curl jq)

@@ -22,7 +22,7 @@ build() {  # PRESET TARGET...
 }
 
 step "install"
-tests/install.sh build test
+tests/install.sh run build test
 
 step "format"
 git ls-files -z '*.h' '*.cpp' 2>/dev/null | xargs -0 clang-format-14 --dry-run --Werror

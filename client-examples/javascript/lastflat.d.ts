@@ -48,25 +48,28 @@ export class Lastflat {
      */
     upload(bytes: BodyInit, signal?: AbortSignal): Promise<Asset>;
     /**
-     * Makes a job of a kept model. `once`, a text of your own, makes it one job however often it is sent.
+     * Makes a job of a kept model. `once`, a text of your own, makes it one job however often it is sent; `fresh` has it
+     * run even if its result is there.
      * @param {string} assetId
      * @param {FlattenRequest} [request]
-     * @param {{once?: string, signal?: AbortSignal}} [options]
+     * @param {{once?: string, fresh?: boolean, signal?: AbortSignal}} [options]
      * @returns {Promise<Job>}
      */
     submit(assetId: string, request?: FlattenRequest, options?: {
         once?: string;
+        fresh?: boolean;
         signal?: AbortSignal;
     }): Promise<Job>;
     /**
      * Makes a job and follows it to its end; throws what it failed of. Given up by `signal`, it is canceled.
      * @param {string} assetId
      * @param {FlattenRequest} [request]
-     * @param {{onProgress?: (progress: Progress) => void, signal?: AbortSignal}} [options]
+     * @param {{onProgress?: (progress: Progress) => void, fresh?: boolean, signal?: AbortSignal}} [options]
      * @returns {Promise<Job>} a job that has succeeded
      */
     flatten(assetId: string, request?: FlattenRequest, options?: {
         onProgress?: (progress: Progress) => void;
+        fresh?: boolean;
         signal?: AbortSignal;
     }): Promise<Job>;
     /**
@@ -93,13 +96,13 @@ export class Lastflat {
      */
     result(id: string, signal?: AbortSignal): Promise<FlattenResult>;
     /**
-     * A file of the result.
+     * A file of the result; `png` is a small picture of it.
      * @param {string} id
-     * @param {"json" | "svg" | "glb" | "obj"} format
+     * @param {"json" | "svg" | "png" | "glb" | "obj"} format
      * @param {AbortSignal} [signal]
      * @returns {Promise<Blob>}
      */
-    file(id: string, format: "json" | "svg" | "glb" | "obj", signal?: AbortSignal): Promise<Blob>;
+    file(id: string, format: "json" | "svg" | "png" | "glb" | "obj", signal?: AbortSignal): Promise<Blob>;
     /** @param {string} id */
     cancel(id: string): Promise<void>;
     #private;

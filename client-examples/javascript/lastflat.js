@@ -65,16 +65,18 @@ export class Lastflat {
   }
 
   /**
-   * Makes a job of a kept model. `once`, a text of your own, makes it one job however often it is sent.
+   * Makes a job of a kept model. `once`, a text of your own, makes it one job however often it is sent; `fresh` has it
+   * run even if its result is there.
    * @param {string} assetId
    * @param {FlattenRequest} [request]
-   * @param {{once?: string, signal?: AbortSignal}} [options]
+   * @param {{once?: string, fresh?: boolean, signal?: AbortSignal}} [options]
    * @returns {Promise<Job>}
    */
   async submit(assetId, request = {}, options = {}) {
     /** @type {Record<string, string>} */
     const headers = {"Content-Type": "application/json"};
     if (options.once) headers["Idempotency-Key"] = options.once;
+    if (options.fresh) headers["Cache-Control"] = "no-cache";
     const body = JSON.stringify({model: {asset_id: assetId}, request});
     return (await this.#ask("/v1/jobs", {method: "POST", headers, body, signal: options.signal})).json();
   }
@@ -83,16 +85,31 @@ export class Lastflat {
    * Makes a job and follows it to its end; throws what it failed of. Given up by `signal`, it is canceled.
    * @param {string} assetId
    * @param {FlattenRequest} [request]
-   * @param {{onProgress?: (progress: Progress) => void, signal?: AbortSignal}} [options]
+   * @param {{onProgress?: (progress: Progress) => void, fresh?: boolean, signal?: AbortSignal}} [options]
    * @returns {Promise<Job>} a job that has succeeded
    */
   async flatten(assetId, request = {}, options = {}) {
-    const started = await this.submit(assetId, request, {once: oneTimeText(), signal: options.signal});
+    const {fresh, signal} = options;
+    const once = oneTimeText();
     try {
-      return await this.#follow(started, options);
+      return await this.#follow(await this.submit(assetId, request, {once, fresh, signal}), options);
     } catch (error) {
-      if (options.signal?.aborted) await this.cancel(started.id).catch(() => undefined);  // it may have ended
+      if (signal?.aborted) await this.#takeBack(assetId, request, {once, fresh});
       throw error;
+    }
+  }
+
+  /**
+   * Cancels what may have been sent: the same once more says which job it is.
+   * @param {string} assetId
+   * @param {FlattenRequest} request
+   * @param {{once: string, fresh?: boolean}} options
+   */
+  async #takeBack(assetId, request, options) {
+    try {
+      await this.cancel((await this.submit(assetId, request, options)).id);
+    } catch (error) {
+      if (mayPass(error)) throw error;  // else it has ended, or was never taken
     }
   }
 
@@ -143,14 +160,14 @@ export class Lastflat {
   }
 
   /**
-   * A file of the result.
+   * A file of the result; `png` is a small picture of it.
    * @param {string} id
-   * @param {"json" | "svg" | "glb" | "obj"} format
+   * @param {"json" | "svg" | "png" | "glb" | "obj"} format
    * @param {AbortSignal} [signal]
    * @returns {Promise<Blob>}
    */
   async file(id, format, signal) {
-    return (await this.#ask(`/v1/jobs/${id}/result?format=${format}`, {signal})).blob();
+    return (await this.#ask(`/v1/jobs/${id}/result.${format}`, {signal})).blob();
   }
 
   /** @param {string} id */
@@ -192,19 +209,30 @@ export class Lastflat {
   }
 
   /**
-   * An answer that is no problem; what is refused for the moment (429, 503) is asked again.
+   * An answer that is no problem. What is refused for the moment (429, 503) is asked again, and so is, unless that may
+   * make a second job, what did not come through.
    * @param {string} path
    * @param {RequestInit & {headers?: Record<string, string>}} init
    * @returns {Promise<Response>}
    */
   async #ask(path, init) {
     const headers = {...init.headers, ...(this.key ? {Authorization: `Bearer ${this.key}`} : {})};
+    const isOnce = path !== "/v1/jobs" || "Idempotency-Key" in headers;
     for (let attempt = 0; ; ++attempt) {
-      const answer = await this.fetch(this.url + path, {...init, headers});
+      const isLast = attempt === 4 || init.body instanceof ReadableStream;  // a stream is read once
+      /** @type {Response} */
+      let answer;
+      try {
+        answer = await this.fetch(this.url + path, {...init, headers});
+      } catch (error) {
+        if (init.signal?.aborted || !isOnce || isLast) throw error;
+        await pause(500 * 2 ** attempt, init.signal);
+        continue;
+      }
       if (answer.ok) return answer;
       const error = new LastflatError(await problemOf(answer));
-      if (!mayPass(error) || attempt === 4) throw error;
-      await pause(1000 * Number(answer.headers.get("Retry-After") ?? 1), init.signal);
+      if (!mayPass(error) || isLast) throw error;
+      await pause(retryAfter(answer), init.signal);
     }
   }
 }
@@ -212,6 +240,16 @@ export class Lastflat {
 /** No secret: it only has to be another one each time. (`crypto.randomUUID` is missing in Node 18 and on http pages.) */
 function oneTimeText() {
   return [Date.now(), Math.random(), Math.random()].map((number) => number.toString(36).replace(".", "")).join("-");
+}
+
+/**
+ * Milliseconds until asking again is of use: a number of seconds, or a date.
+ * @param {Response} answer
+ */
+function retryAfter(answer) {
+  const value = answer.headers.get("Retry-After") ?? "1";
+  const wait = /^\d+$/.test(value) ? 1000 * Number(value) : Date.parse(value) - Date.now();
+  return Math.min(Math.max(wait || 0, 100), 60_000);
 }
 
 /** @param {unknown} error Whether asking again may help. */

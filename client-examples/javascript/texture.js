@@ -24,27 +24,52 @@ export function modelOf({scene, parser}) {
   const model = {positions: [], triangles: []};
   /** @type {unknown} */
   let node;  // whose primitives may share vertices
-  let bases = new Map();
+  /** @type {{of: unknown[], base: number}[]} */
+  let known = [];
   scene.updateMatrixWorld(true);
   scene.traverse((/** @type {any} */ object) => {
     if (!object.isMesh && !object.isLine) return;
     const {geometry, matrixWorld} = object;
     const {position} = geometry.attributes;
     const owner = parser.associations.get(object)?.nodes === undefined ? object.parent : object;
-    if (owner !== node) [node, bases] = [owner, new Map()];
-    if (!bases.has(position)) {
-      bases.set(position, model.positions.length);
-      const place = position.clone().applyMatrix4(matrixWorld);
-      for (let v = 0; v < place.count; ++v) model.positions.push([place.getX(v), place.getY(v), place.getZ(v)]);
+    if (owner !== node) [node, known] = [owner, []];
+    const of = verticesOf(geometry);
+    let base = known.find((other) => same(other.of, of))?.base;
+    if (base === undefined) {
+      base = model.positions.length;
+      known.push({of, base});
+      const point = object.position.clone();
+      for (let v = 0; v < position.count; ++v) {
+        // Morph targets and skins move what is drawn.
+        if (object.isMesh) object.getVertexPosition(v, point);
+        else point.fromBufferAttribute(position, v);
+        model.positions.push(point.applyMatrix4(matrixWorld).toArray());
+      }
     }
     if (object.isLine) return;
-    const base = bases.get(position);
     const corners = geometry.index?.array ?? Array.from({length: position.count}, (_, v) => v);
     for (let c = 0; c + 3 <= corners.length; c += 3) {
       model.triangles.push([base + corners[c], base + corners[c + 1], base + corners[c + 2]]);
     }
   });
   return model;
+}
+
+/**
+ * What vertices are made of: primitives that have all of it in common have them in common.
+ * @param {any} geometry
+ * @returns {unknown[]}
+ */
+function verticesOf({attributes, morphAttributes}) {
+  return [attributes.position, attributes.skinIndex, attributes.skinWeight, ...(morphAttributes.position ?? [])];
+}
+
+/**
+ * @param {unknown[]} a
+ * @param {unknown[]} b
+ */
+function same(a, b) {
+  return a.length === b.length && a.every((value, i) => value === b[i]);
 }
 
 /**

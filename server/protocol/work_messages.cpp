@@ -38,7 +38,7 @@ std::string line_of(const Failed& end) {
     return "problem " + api::to_json(end.problem);
 }
 std::string line_of(const Report& report) {
-    return "report " + report.json;
+    return "report " + report.content;
 }
 std::string line_of(const Retry& retry) {
     std::string why = retry.why;

@@ -19,15 +19,16 @@ namespace lastflat::server {
 
 enum class Task {
     flatten,
-    inspect,  ///< only load and check
-    map       ///< between last and pattern; the model is a result's OBJ
+    inspect,   ///< only load and check
+    map,       ///< between last and pattern; the model is a result's OBJ
+    thumbnail  ///< a picture as wide as `request` says; the model is a result's SVG
 };
 
 struct WorkOrder {
     Task task = Task::flatten;
     std::string model;    ///< path
     std::string digest;   ///< of the model
-    std::string request;  ///< constraint JSON, or what to map
+    std::string request;  ///< constraint JSON, what to map, or a number
     std::string result;   ///< path of the file to write
     int threads = 1;
     int memory_mb = 0;    ///< 0: no limit
@@ -43,9 +44,9 @@ struct StageReached {
     std::string stage;
     double fraction;  ///< of the whole job
 };
-/// A body of the wire, on one line.
+/// What the answer holds, on one line: JSON, or a picture's base64.
 struct Report {
-    std::string json;
+    std::string content;
 };
 struct Retry {
     std::string why;

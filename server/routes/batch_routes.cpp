@@ -31,7 +31,7 @@ Response awaited(const BatchView& view, const Request& request, BatchRecord batc
 
 SubmittedBatch submit(const BatchServices& service, const Request& request) {
     const api::BatchRequest jobs = [&] {
-        const LargeBodyTurn turn(request.body.front().bytes.size());
+        const LargeBodyTurn turn(request.principal, request.body.front().bytes.size());
         return api::BatchRequest(request.body.front().bytes);
     }();
     Submission terms;

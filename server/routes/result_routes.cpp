@@ -1,5 +1,8 @@
 #include "server/routes/result_routes.h"
 
+#include <charconv>
+
+#include "api/base64.h"
 #include "api/refusal.h"
 #include "server/jobs/job_control.h"
 #include "server/jobs/result_parts.h"
@@ -77,7 +80,40 @@ Response map_points(const ResultServices& service, const Request& request) {
     if (request.body.size() != 1 || request.body[0].media_type != "application/json")
         api::refuse("media_type_unsupported", "what is to be mapped is JSON: application/json");
     const std::string obj = result_bytes(service.blobs, job, result_part(job, "obj", false));
-    return service.tasks.answer(request, Task::map, obj, request.body[0].bytes);
+    return json_response(200, service.tasks.report(request, Task::map, obj, request.body[0].bytes));
+}
+
+int wanted_width(const Request& request) {
+    constexpr int usual = 640, least = 16, most = 2048;
+    const auto given = request.query.find("width");
+    if (given == request.query.end()) return usual;
+    const std::string& text = given->second;
+    int width = 0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), width);
+    const bool whole = read.ec == std::errc() && read.ptr == text.data() + text.size();
+    if (!whole || width < least || width > most)
+        api::refuse("parameter_invalid", "width is a number of pixels from " +
+                                             std::to_string(least) + " to " + std::to_string(most));
+    return width;
+}
+
+/// The drawing as a picture, made when it is asked for.
+Response picture(const ResultServices& service, const Request& request) {
+    const JobRecord job = finished_job(service, request);
+    const std::string width = std::to_string(wanted_width(request));
+    const ResultPart& svg = result_part(job, "svg", false);
+    const std::string etag = "\"" + svg.digest.substr(0, 32) + "-" + width + "\"";
+    Response response;
+    response.media_type = "image/png";
+    response.headers.emplace_back("Cache-Control", "private, no-cache");
+    response.headers.emplace_back("Content-Disposition", "inline; filename=\"" + job.id + ".png\"");
+    if (has_already(request, etag)) return tagged(request, etag, std::move(response));
+    const std::string drawing = result_bytes(service.blobs, job, svg);
+    const auto png =
+        api::decode_base64(service.tasks.report(request, Task::thumbnail, drawing, width));
+    response.body = std::make_shared<const std::string>(png.value());
+    response.headers.emplace_back("ETag", etag);
+    return response;
 }
 
 }  // namespace
@@ -102,6 +138,12 @@ std::vector<http::Route> result_routes(const ResultServices& service) {
          false,
          false,
          {"token"}},
+        {"GET",
+         "/v1/jobs/{id}/result.png",
+         [service](const Request& request) { return picture(service, request); },
+         false,
+         false,
+         {"token", "width"}},
         {"POST", "/v1/jobs/{id}/map",
          [service](const Request& request) { return map_points(service, request); }, true}};
     for (const auto& [word, format] : api::result_formats) {

@@ -30,11 +30,12 @@ std::size_t part_for(std::string uri, const std::vector<const http::BodyPart*>& 
 }  // namespace
 
 std::string with_buffers_inside(std::string_view gltf,
-                                const std::vector<const http::BodyPart*>& buffers) {
+                                const std::vector<const http::BodyPart*>& buffers,
+                                const std::string& owner) {
     if (gltf.find_first_not_of(" \t\r\n") == std::string::npos ||
         gltf[gltf.find_first_not_of(" \t\r\n")] != '{')
         api::refuse("part_unused", "only a glTF document (JSON) has buffers beside it");
-    const LargeBodyTurn turn(gltf.size());
+    const LargeBodyTurn turn(owner, gltf.size());
     nlohmann::json document = api::parse_json(gltf, deepest_gltf);
     std::vector<bool> used(buffers.size(), false);
     if (document.contains("buffers") && document["buffers"].is_array()) {

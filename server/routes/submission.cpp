@@ -25,8 +25,8 @@ Submission checked(Submission submission, const api::FlattenRequest& request) {
     return submission;
 }
 
-Submission checked(Submission submission) {
-    const LargeBodyTurn turn(submission.request.size());
+Submission checked(Submission submission, const std::string& owner) {
+    const LargeBodyTurn turn(owner, submission.request.size());
     const auto request = api::flatten_request_from_json(submission.request);
     return checked(std::move(submission), request);
 }
@@ -64,10 +64,11 @@ Submission from_parts(const http::Request& request) {
     if (!buffers.empty() && model == nullptr)
         api::refuse("part_unused", "an asset is one file: it has no buffers beside it");
     if (model != nullptr) submission.model = model->bytes;
-    if (!buffers.empty()) submission.make_model(with_buffers_inside(model->bytes, buffers));
+    if (!buffers.empty())
+        submission.make_model(with_buffers_inside(model->bytes, buffers, request.principal));
     if (asset != nullptr) submission.asset = asset->bytes;
     if (constraints != nullptr) submission.request = constraints->bytes;
-    return checked(std::move(submission));
+    return checked(std::move(submission), request.principal);
 }
 
 Submission from_model_alone(const http::Request& request) {
@@ -80,7 +81,7 @@ Submission from_model_alone(const http::Request& request) {
     if (!submission.asset.empty() && !submission.model.empty())
         api::refuse("model_repeated", "there is a model in the body beside ?asset_id=; send one");
     submission.request = *constraints;
-    return checked(std::move(submission));
+    return checked(std::move(submission), request.principal);
 }
 
 bool is_form(const http::Request& request) {
@@ -93,7 +94,7 @@ bool is_form(const http::Request& request) {
 Submission read_any_submission(const http::Request& request) {
     if (is_form(request)) return from_parts(request);
     if (!request.body.empty() && request.body.front().media_type == "application/json") {
-        const LargeBodyTurn turn(request.body.front().bytes.size());
+        const LargeBodyTurn turn(request.principal, request.body.front().bytes.size());
         return submission_of(api::json_submission_from_json(request.body.front().bytes));
     }
     return from_model_alone(request);

@@ -1,20 +1,17 @@
 #include "server/routes/task_answer.h"
 
 #include "api/refusal.h"
-#include "server/routes/answers.h"
 
 namespace lastflat::server {
 
-using http::Response;
-
-Response TaskAnswers::answer(const http::Request& request, Task task, std::string_view model,
-                             std::string_view text) const {
+std::string TaskAnswers::report(const http::Request& request, Task task, std::string_view model,
+                                std::string_view text) const {
     const WaitingSeat seat(seats_, request);
     if (!seat.is_taken())
         api::refuse("validations_full",
                     "too many models and patterns are being looked at; try again later");
-    const ProcessEnd end = run_({request.principal, task, model, text, request.is_client_gone});
-    if (const auto* report = std::get_if<Report>(&end)) return json_response(200, report->json);
+    ProcessEnd end = run_({request.principal, task, model, text, request.is_client_gone});
+    if (auto* report = std::get_if<Report>(&end)) return std::move(report->content);
     if (const auto* failed = std::get_if<Failed>(&end)) throw api::Refusal(failed->problem);
     const auto* unfinished = std::get_if<Unfinished>(&end);
     const auto kind = unfinished != nullptr ? unfinished->kind : Unfinished::Kind::crashed;

@@ -1,4 +1,4 @@
-// A task that a worker does while the client waits: an inspection, or a mapping.
+// A task that a worker does while the client waits: an inspection, a mapping, a picture.
 #pragma once
 
 #include "server/http/http.h"
@@ -12,10 +12,10 @@ public:
     /// `seats` must outlive it.
     TaskAnswers(SeatsByKey& seats, RunTask run) : seats_(seats), run_(std::move(run)) {}
 
-    /// The task's report, or its problem. Takes a seat to wait in.
-    /// Throws: api::Refusal (422, 500, 503).
-    [[nodiscard]] http::Response answer(const http::Request& request, Task task,
-                                        std::string_view model, std::string_view text) const;
+    /// What the task reports. Takes a seat to wait in.
+    /// Throws: api::Refusal (422, 500, 503): the task's problem among them.
+    [[nodiscard]] std::string report(const http::Request& request, Task task,
+                                     std::string_view model, std::string_view text) const;
 
 private:
     SeatsByKey& seats_;

@@ -17,7 +17,8 @@ http::Response validate(const ValidateServices& service, const http::Request& re
                 .in_content();
         submission.make_model(service.blobs.read(submission.asset));
     }
-    return service.tasks.answer(request, Task::inspect, submission.model, submission.request);
+    return json_response(
+        200, service.tasks.report(request, Task::inspect, submission.model, submission.request));
 }
 
 }  // namespace

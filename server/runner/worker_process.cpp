@@ -106,7 +106,8 @@ public:
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
-    void kill() const { ::kill(process_, SIGKILL); }
+    /// With whatever it has started.
+    void kill() const { ::kill(-process_, SIGKILL); }
 
     /// Reads what is there; false at the end of both streams.
     [[nodiscard]] bool read() {

@@ -325,6 +325,34 @@ CREATE INDEX questions_by_text ON questions (owner, question, seq);
                                 R"sql(
 ALTER TABLE keys ADD COLUMN scope TEXT NOT NULL DEFAULT 'all';
 ALTER TABLE keys ADD COLUMN expires_ms INTEGER;
+)sql",
+                                R"sql(
+-- A result that answers several jobs of an owner is kept once, and counts once.
+DROP TRIGGER job_changed;
+DROP TRIGGER job_removed;
+DROP VIEW kept;
+CREATE VIEW kept (owner, bytes) AS
+    SELECT owner, model_bytes FROM jobs WHERE state IN ('queued', 'running', 'canceling')
+    UNION ALL SELECT owner, max(result_bytes) FROM jobs WHERE result <> '' GROUP BY owner, result
+    UNION ALL SELECT owner, bytes FROM assets;
+UPDATE usage SET bytes = (SELECT coalesce(sum(k.bytes), 0) FROM kept k WHERE k.owner = usage.owner);
+CREATE TRIGGER job_changed AFTER UPDATE OF state, result, result_bytes ON jobs BEGIN
+    UPDATE usage SET bytes = bytes
+        + CASE WHEN new.state IN ('queued', 'running', 'canceling') THEN new.model_bytes ELSE 0 END
+        - CASE WHEN old.state IN ('queued', 'running', 'canceling') THEN old.model_bytes ELSE 0 END
+        + CASE WHEN new.result = '' OR EXISTS (SELECT 1 FROM jobs WHERE result = new.result
+            AND owner = new.owner AND seq <> new.seq) THEN 0 ELSE new.result_bytes END
+        - CASE WHEN old.result = '' OR EXISTS (SELECT 1 FROM jobs WHERE result = old.result
+            AND owner = old.owner AND seq <> old.seq) THEN 0 ELSE old.result_bytes END
+        WHERE owner = new.owner;
+END;
+CREATE TRIGGER job_removed AFTER DELETE ON jobs BEGIN
+    UPDATE usage SET bytes = bytes
+        - CASE WHEN old.state IN ('queued', 'running', 'canceling') THEN old.model_bytes ELSE 0 END
+        - CASE WHEN old.result = '' OR EXISTS (SELECT 1 FROM jobs WHERE result = old.result
+            AND owner = old.owner) THEN 0 ELSE old.result_bytes END
+        WHERE owner = old.owner;
+END;
 )sql"};
 
 }  // namespace

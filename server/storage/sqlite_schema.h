@@ -6,7 +6,7 @@
 namespace lastflat::server {
 
 /// What a file has that this program made.
-inline constexpr int newest_schema = 7;
+inline constexpr int newest_schema = 8;
 
 /// Runs the migrations up to `version` that the file has not had, each as a whole.
 /// Throws: SQLite::Exception; StoreError if the file is newer than the program.

@@ -2,31 +2,34 @@
 #pragma once
 
 #include <cstddef>
-#include <semaphore>
+#include <string>
+
+#include "server/support/turns.h"
 
 namespace lastflat::server {
 
 /// Waits for a turn if the body is large, and has it for as long as it lives. Reading JSON keeps a
-/// processor busy, and its values fill memory: large bodies wait for each other, whoever sent them,
+/// processor busy, and its values fill memory: large bodies wait for each other, in turns by owner,
 /// while small ones and all other requests pass by.
 class LargeBodyTurn {
 public:
-    explicit LargeBodyTurn(std::size_t bytes) : is_large_(bytes > large) {
-        if (is_large_) turns().acquire();
-    }
+    LargeBodyTurn(std::string owner, std::size_t bytes)
+        : owner_(std::move(owner)),
+          has_turn_(bytes > large && turns().enter(owner_, [] { return false; })) {}
     ~LargeBodyTurn() {
-        if (is_large_) turns().release();
+        if (has_turn_) turns().leave(owner_);
     }
     LargeBodyTurn(const LargeBodyTurn&) = delete;
     LargeBodyTurn& operator=(const LargeBodyTurn&) = delete;
 
 private:
     static constexpr std::size_t large = 64u << 10;
-    static std::counting_semaphore<>& turns() {
-        static std::counting_semaphore<> two{2};
+    static Turns& turns() {
+        static Turns two{2};
         return two;
     }
-    const bool is_large_;
+    const std::string owner_;
+    const bool has_turn_;
 };
 
 }  // namespace lastflat::server

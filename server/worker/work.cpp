@@ -8,6 +8,7 @@
 
 #include <iostream>
 
+#include "api/base64.h"
 #include "api/flatten_request.h"
 #include "api/model_report.h"
 #include "api/problem_of.h"
@@ -19,6 +20,7 @@
 #include "server/support/files.h"
 #include "server/worker/map_job.h"
 #include "server/worker/run_job.h"
+#include "server/worker/thumbnail.h"
 
 namespace lastflat::server {
 namespace {
@@ -86,6 +88,10 @@ WorkMessage work(const WorkOrder& order) {
     if (order.task == Task::map) {
         const auto request = api::map_request_from_json(order.request);
         return Report{api::to_json(map_job(read_model(order), request))};
+    }
+    if (order.task == Task::thumbnail) {
+        (void)read_model(order);  // it is what it was
+        return Report{api::encode_base64(thumbnail(order.model, std::stoi(order.request)))};
     }
     JobInput input;
     input.options.request = api::flatten_request_from_json(order.request).asked;

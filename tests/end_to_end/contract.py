@@ -253,6 +253,10 @@ def walk_conditions(walk, id):
             if status != 206 or len(body) != (10 if method == "GET" else 0) or not headers["content-range"].startswith("bytes 1-10/"):
                 walk.contract.complain(f"{method} {path}", f"no range: {answer}")
             walk.expect(416, "range_outside" if method == "GET" else None, method, path, id=id, headers=["Range: bytes=999999999-"])
+    for width in ("0", "15", "2049", "wide", ""):
+        walk.expect(400, "parameter_invalid", "GET", "/v1/jobs/{id}/result.png", id=id, query="?width=" + width)
+    picture = walk.expect(200, None, "GET", "/v1/jobs/{id}/result.png", id=id, query="?width=320")
+    assert picture[:8] == b"\x89PNG\r\n\x1a\n" and int.from_bytes(picture[16:20], "big") == 320, picture[:32]
     events = walk.expect(200, None, "GET", "/v1/jobs/{id}/events", id=id).decode()
     assert events.count("event: state") == 3 and events.count("event: done") == 1, events
     last = [line[4:] for line in events.splitlines() if line.startswith("id: ")][-1]

@@ -63,7 +63,7 @@ def walk_tokens(one, nobody, id):
     make = lambda status, code, body, walk=one: walk.expect(
         status, code, "POST", "/v1/tokens", headers=["Content-Type: application/json"], body=json.dumps(body).encode())
     token = make(201, None, {"scope": "job:" + id, "expires_in_s": 60})["token"]
-    paths = ["result", "result.json", "result.svg", "result.glb", "result.obj", "metrics", "events"]
+    paths = ["result", "result.json", "result.svg", "result.png", "result.glb", "result.obj", "metrics", "events"]
     for method in ("GET", "HEAD"):
         for path in paths:
             nobody.expect(200, None, method, "/v1/jobs/{id}/" + path, id=id, query="?token=" + token)

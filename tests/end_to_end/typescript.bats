@@ -62,6 +62,12 @@ compile() {
     [[ $stderr == *"(at /locks/"* ]]
 }
 
+@test "the JavaScript client asks again what did not come through, and cancels what it gave up" {
+    start_server --workers 1
+    node faults.mjs "$url" "$sample/last.obj" > "$BATS_TEST_TMPDIR/faults"
+    grep -Eqx '[0-9]+ requests on a bad line' "$BATS_TEST_TMPDIR/faults"
+}
+
 @test "the glTF validator finds nothing in what is written" {
     cd "$BATS_TEST_TMPDIR"
     "$LASTFLAT" flatten "$sample/last.obj" --request "$sample/last.request.json" --out halves

@@ -107,7 +107,8 @@ TEST_SUITE("server/runner/worker_process") {
         WorkSetting s;
         WorkOrder order = s.order(square);
         order.task = Task::inspect;
-        CHECK(std::get<Report>(s.run(order)).json.find("\"flattens\":true") != std::string::npos);
+        CHECK(std::get<Report>(s.run(order)).content.find("\"flattens\":true") !=
+              std::string::npos);
         order = s.order("hello");
         order.task = Task::inspect;
         CHECK(code_of(s.run(order)) == "unreadable_model");

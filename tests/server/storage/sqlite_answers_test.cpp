@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "server/storage/sqlite_rows.h"
 #include "tests/server/storage/test_store.h"
 
 namespace lastflat::server {
@@ -81,7 +82,7 @@ TEST_SUITE("server/storage/sqlite_answers") {
         CHECK_FALSE(other.store.needs_blob("because"));
     }
 
-    TEST_CASE("it needs no place in the queue; its result counts as kept") {
+    TEST_CASE("it needs no place in the queue; a result that several jobs have counts once") {
         TestStore s;
         REQUIRE(s.add(asking("A", "why", "alice")) == Admission::queued);
         run_next(s, "because");
@@ -89,8 +90,18 @@ TEST_SUITE("server/storage/sqlite_answers") {
         limits.queued_of_owner = 0;
         CHECK(s.add(asking("B", "other", "alice"), limits) == Admission::owner_queue_full);
         CHECK(s.add(asking("C", "why", "alice"), limits) == Admission::queued);
-        limits.bytes_of_owner = 7;  // two results of four bytes are there
+        limits.bytes_of_owner = 3;
         CHECK(s.add(asking("D", "why", "alice"), limits) == Admission::storage_full);
+        const auto kept = [&] {
+            return s.database.read(
+                [](SqliteConnection& connection) { return bytes_kept(connection, "alice"); });
+        };
+        CHECK(kept() == 4);
+        (void)s.store.remove("alice", "A");
+        CHECK(kept() == 4);
+        (void)s.store.remove("alice", "C");
+        CHECK(kept() == 0);
+        CHECK(s.database.integrity() == "ok");
     }
 
     TEST_CASE("a batch whose jobs are all answered has finished") {
