@@ -206,6 +206,13 @@ void read_draw(const Field& field, Request& request) {
     }
 }
 
+void read_include(const Field& field, Request& request) {
+    for (const Field& item : field.items(std::size(include_words))) {
+        (void)item.choice(include_words);
+        request.include_fan = true;
+    }
+}
+
 bool weighs(const DistortionWeights& weights) {
     return !weights.even() || !weights.zones.empty();
 }
@@ -229,6 +236,7 @@ FlattenRequest read_flatten_request(const Field& field, const RequestLimits& lim
             (void)arrangement->choice(arrangements);
         inner.finish();
     }
+    if (const auto include = reader.find("include")) read_include(*include, asked);
     if (const auto draw = reader.find("draw")) read_draw(*draw, asked);
     if (const auto tag = reader.find("tag")) request.tag = tag->text(256);
     reader.finish();

@@ -130,7 +130,7 @@ std::string region_text(const FlattenResult& result, const FlatRegion& flat, boo
     if (flat.energy) json["energy"] = *flat.energy;
     if (flat.projected_gradient) json["projected_gradient"] = *flat.projected_gradient;
     if (!with_geometry) return text_of(json);
-    if (flat.fan) json["fan"] = fan_json(flat, result.sources);
+    if (flat.fan && tells_fan(result.plan.request)) json["fan"] = fan_json(flat, result.sources);
     std::string text = text_of(json);
     text.pop_back();
     return text + "," + geometry_text(flat, result.sources) + "}";

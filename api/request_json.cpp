@@ -195,6 +195,7 @@ Json request_json(const Request& request) {
                             {"compress_max_percent", request.material->compress_max_percent}};
     }
     if (const Json method = method_json(request.method); !method.is_null()) json["method"] = method;
+    if (request.include_fan) json["include"].push_back("fan");
     if (request.draw_fan) json["draw"].push_back("fan");
     if (request.shading != Shading::area)
         json["draw"].push_back(word_of(draw_words, std::optional(request.shading)));

@@ -40,6 +40,9 @@ inline constexpr Word<FeatureRule> feature_words[]{
 
 inline constexpr Word<Keep> keep_words[]{{"edges", Keep::edges}, {"total", Keep::total}};
 
+/// What a result has only if it is asked for.
+inline constexpr Word<bool> include_words[]{{"fan", true}};
+
 /// What the drawing shows: the fan (no value), or a quantity by colour.
 inline constexpr Word<std::optional<Shading>> draw_words[]{
     {"fan", std::nullopt},       {"area", Shading::area},   {"stretch", Shading::stretch},

@@ -37,20 +37,19 @@ struct Fan {
     std::vector<Warning> warnings;
 };
 
-/// The fan says where the chart lies and that it is sane; without it the chart is as good.
-Fan fan_of(const Region& region, bool drawn, const FlattenOptions& options,
-           const Progress& progress) {
-    if (!drawn && region.triangles.size() > options.fan_triangles) return {};
-    if (region.triangles.size() > options.drawn_fan_triangles) {
+/// For whoever asks for it; nothing depends on it.
+Fan fan_of(const Region& region, const FlattenOptions& options, const Progress& progress) {
+    if (!options.request.draw_fan && !tells_fan(options.request)) return {};
+    if (region.triangles.size() > options.fan_triangles) {
         return {std::nullopt,
                 {{"no_fan",
                   "region '" + region.name + "' has more than " +
-                      std::to_string(options.drawn_fan_triangles) +
-                      " triangles: its geodesic fan is not drawn",
+                      std::to_string(options.fan_triangles) +
+                      " triangles: its geodesic fan is left out",
                   std::nullopt}}};
     }
     try {
-        return {geodesic_fan(region, drawn, progress), {}};
+        return {geodesic_fan(region, options.request.draw_fan, progress), {}};
     } catch (const Error& error) {
         if (error.code() != ErrorCode::solver_failed) throw;
         return {std::nullopt,
@@ -102,7 +101,7 @@ Solution solve(const Prepared& prepared, std::vector<Start> starts, const Flatte
                 refined(prepared, groups[task].regions, starts, inner_threads, progress);
         } else {
             const std::size_t r = task - groups.size();
-            solution.fans[r] = fan_of(regions[r], options.request.draw_fan, options, progress);
+            solution.fans[r] = fan_of(regions[r], options, progress);
         }
     });
     return solution;
@@ -178,7 +177,6 @@ FlattenResult measured(Prepared prepared, Solution solution, double layout_gap_m
     std::vector<Chart> charts(regions.size());
     std::vector<const Minimum*> minima(regions.size());
     std::vector<std::size_t> relaxed;
-    std::vector<Index> centres;
     for (Group& group : solution.groups) {
         for (std::size_t i = 0; i < group.regions.size(); ++i) {
             charts[group.regions[i]] = std::move(group.refined.minimum.charts[i]);
@@ -187,11 +185,8 @@ FlattenResult measured(Prepared prepared, Solution solution, double layout_gap_m
         append(relaxed, std::move(group.refined.relaxed));
         append(result.warnings, std::move(group.refined.warnings));
     }
-    for (Fan& fan : solution.fans) {
-        centres.push_back(fan.fan ? fan.fan->centre : -1);
-        append(result.warnings, std::move(fan.warnings));
-    }
-    orient_charts(regions, centres, without(result.asked, relaxed), charts);
+    for (Fan& fan : solution.fans) append(result.warnings, std::move(fan.warnings));
+    orient_charts(regions, without(result.asked, relaxed), charts);
     result.sheet = arrange_pair(regions, charts, layout_gap_mm);
     result.pairs = measure_pairs(regions, charts);
     report_constraints(regions, charts, relaxed, result);

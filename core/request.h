@@ -274,7 +274,13 @@ struct Request {
     MethodOptions method;
     Shading shading = Shading::area;  ///< of the drawing
     bool draw_fan = false;            ///< the geodesic fan in the drawing
+    bool include_fan = false;         ///< the geodesic fan in the result
 };
+
+/// Whether the result says what the geodesic fan is: the method of that name always does.
+[[nodiscard]] inline bool tells_fan(const Request& request) {
+    return request.include_fan || request.method.name == MethodName::geodesic_fan;
+}
 
 /// If not, the cuts of a closed last are found.
 [[nodiscard]] inline bool says_how_to_cut(const Request& request) {
@@ -286,8 +292,7 @@ struct Request {
 struct FlattenOptions {
     Request request;
     LoadLimits limits;
-    /// Up to how many triangles of a region its fan is computed, and if it is to be drawn.
-    std::size_t fan_triangles = 20'000, drawn_fan_triangles = 250'000;
+    std::size_t fan_triangles = 250'000;  ///< of a region, up to which its fan is computed
     double layout_gap_mm = 10.0;
     std::size_t threads = 1;
 };

@@ -80,6 +80,18 @@ Vec2 direction_of(const Vec3& axis, const std::vector<Patch>& pieces) {
     return direction;
 }
 
+Vec2 centroid_of(const Region& region, const Points2& uv) {
+    double area = 0.0;
+    Vec2 moment = Vec2::Zero();
+    for (const Triangle& t : region.triangles) {
+        const Vec2 &a = uv[at(t[0])], &b = uv[at(t[1])], &c = uv[at(t[2])];
+        const double doubled = cross(Vec2(b - a), Vec2(c - a));
+        area += doubled;
+        moment += doubled / 3.0 * (a + b + c);
+    }
+    return area > 0.0 ? Vec2(moment / area) : uv.front();
+}
+
 }  // namespace
 
 /// Heel and centre front leave two stretches of border: the featherline's is the longer one.
@@ -122,8 +134,8 @@ Vec3 long_axis(const std::vector<Region>& regions) {
     return skew < 0.0 ? Vec3(-axis) : axis;
 }
 
-void orient_charts(const std::vector<Region>& regions, const std::vector<Index>& centres,
-                   const std::vector<Constraint>& constraints, std::vector<Chart>& charts) {
+void orient_charts(const std::vector<Region>& regions, const std::vector<Constraint>& constraints,
+                   std::vector<Chart>& charts) {
     const Vec3 axis = long_axis(regions);
     for (std::size_t r = 0; r < regions.size(); ++r) {
         Points2& uv = charts[r].uv;
@@ -132,21 +144,15 @@ void orient_charts(const std::vector<Region>& regions, const std::vector<Index>&
             move_to_pins(pins, uv);
             continue;
         }
-        Vec2 base = direction_of(axis, patches(regions[r], charts[r]));
-        if (const auto line = named_base_line(regions[r])) {
-            base =
-                uv[static_cast<std::size_t>(line->toe)] - uv[static_cast<std::size_t>(line->seat)];
-        }
+        const auto line = named_base_line(regions[r]);
+        const Vec2 base = line ? Vec2(uv[at(line->toe)] - uv[at(line->seat)])
+                               : direction_of(axis, patches(regions[r], charts[r]));
         const double length = base.norm();
         const Vec2 along = length > 0.0 ? Vec2(base / length) : Vec2::UnitX();
-        Vec2 low(HUGE_VAL, HUGE_VAL);
-        for (Vec2& p : uv) {
-            p = {along.dot(p), cross(along, p)};
-            low = low.cwiseMin(p);
-        }
-        Vec2 origin = centres[r] < 0 ? low : uv[static_cast<std::size_t>(centres[r])];
-        if (!pins.empty())
-            origin = uv[static_cast<std::size_t>(pins.front().vertex)] - pins.front().at;
+        for (Vec2& p : uv) p = {along.dot(p), cross(along, p)};
+        const Vec2 origin = !pins.empty() ? Vec2(uv[at(pins.front().vertex)] - pins.front().at)
+                            : line        ? uv[at(line->seat)]
+                                          : centroid_of(regions[r], uv);
         for (Vec2& p : uv) p -= origin;
     }
 }

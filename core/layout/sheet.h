@@ -23,19 +23,17 @@ struct Sheet {
 };
 
 /// Turns every chart so that it lies as a pattern is read: base line (from the seat to the toe
-/// point) along +x, the centre of its geodesic fan at the origin; without a fan, the lowest left
-/// corner of its box. Seat and toe point are the ends of
-/// the curves `heel` and `centre_front` (or its parts `toe` and `instep`) towards the longer
-/// stretch of border between them; where a region lacks them, the long axis of all regions in space
-/// takes the base line's place.
+/// point) along +x, the seat at the origin. Seat and toe point are the ends of the curves `heel`
+/// and `centre_front` (or its parts `toe` and `instep`) towards the longer stretch of border
+/// between them. Where a region lacks them, the long axis of all regions in space takes the base
+/// line's place, and the chart's centroid is the origin.
 ///
 /// A chart with one pinned vertex is turned and then has it in its position; one with
 /// more is moved to them.
 ///
-/// In:  per region the centre of its fan, or -1.
 /// Out: charts that do not depend on how the last lay in space.
-void orient_charts(const std::vector<Region>& regions, const std::vector<Index>& centres,
-                   const std::vector<Constraint>& constraints, std::vector<Chart>& charts);
+void orient_charts(const std::vector<Region>& regions, const std::vector<Constraint>& constraints,
+                   std::vector<Chart>& charts);
 
 /// The fan with its angles counted from the direction in which the oriented chart's +x leaves the
 /// centre on the surface, in [-pi, pi]: of an isometry, the chart's own polar coordinates.

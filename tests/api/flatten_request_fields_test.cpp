@@ -42,6 +42,7 @@ const Json whole = Json::parse(R"({
                           {"vertices": [1, 2, 3], "weight": 3}]},
     "material": {"stretch_max_percent": 5, "compress_max_percent": 2},
     "method": {"name": "isometric"}, "layout": {"arrangement": "pair"}, "draw": ["fan", "shear"],
+    "include": ["fan"],
     "tag": "order-4711"})");
 
 std::string refused_at(const std::string& text) {
@@ -164,6 +165,7 @@ TEST_SUITE("api/flatten_request") {
             {"/regions", named(64, nothing), named(65, nothing)},
             {"/weights/zones", Json(std::vector<Json>(64, zone)),
              Json(std::vector<Json>(65, zone))},
+            {"/include", Json::array({"fan"}), {"fan", "fan"}},
             {"/draw", {"fan", "stretch"}, {"fan", "stretch", "fan"}},
             {"/curves/front/vertices", ids(1'000'000), ids(1'000'001)},
             {"/cuts/0", std::string(128, 'x'), std::string(129, 'x')},

@@ -46,7 +46,7 @@ constexpr const char* everything = R"({
     "on_conflict": "relax",
     "material": {"stretch_max_percent": 5, "compress_max_percent": 2},
     "method": {"name": "geodesic_fan", "angles": "averaged_conformal"},
-    "layout": {"arrangement": "pair"}, "draw": ["fan", "gather"], "tag": "order-4711"})";
+    "layout": {"arrangement": "pair"}, "include": ["fan"], "draw": ["fan", "gather"], "tag": "order-4711"})";
 
 constexpr const char* weighed = R"({
     "points": {"toe_point": {"vertex": 80}},
@@ -216,7 +216,7 @@ TEST_SUITE("api/flatten_request") {
 
     TEST_CASE("an error lists what there is instead") {
         const std::string known =
-            "nown here: constraints, curves, cuts, draw, features, holes, last_length_mm, layout";
+            "nown here: constraints, curves, cuts, draw, features, holes, include, last_length_mm";
         CHECK(detail_of(R"({"surfeit": 1})").find("unknown field; k" + known) == 0);
         CHECK(detail_of(R"({"lock": []})").find("unknown field; did you mean 'locks'? K" + known) ==
               0);
@@ -235,6 +235,9 @@ TEST_SUITE("api/flatten_request") {
         CHECK(pointer_of(R"({"draw": ["fan", "fan"]})") == "/draw/1");
         CHECK(pointer_of(R"({"draw": ["fan", "area", "gather"]})") == "/draw");
         CHECK(pointer_of(R"({"draw": ["strain"]})") == "/draw/0");
+        CHECK_FALSE(drawn(R"({"draw": ["fan"]})").include_fan);
+        CHECK(drawn(R"({"include": ["fan"]})").include_fan);
+        CHECK(pointer_of(R"({"include": ["spokes"]})") == "/include/0");
     }
 
     TEST_CASE("documents that cannot be read are refused, not guessed") {

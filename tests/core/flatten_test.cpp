@@ -6,6 +6,7 @@
 
 #include "core/border/convex_border.h"
 #include "core/constrain/minimise_distortion.h"
+#include "core/layout/base_line.h"
 #include "core/parameterize/start.h"
 #include "tests/helpers/minimum.h"
 #include "tests/helpers/sample.h"
@@ -125,18 +126,25 @@ TEST_SUITE("core/flatten") {
     }
 
     TEST_CASE(
-        "the fan is in the result: the chart's origin is its centre, its angles the chart's") {
+        "the fan is made when it is asked for, its angles are the chart's; nothing else changes") {
         const SampleLast last = make_sample_last();
-        const FlattenResult result = test::flatten_sample(last, test::sample_options(last));
-        for (const FlatRegion& flat : result.regions) {
+        FlattenOptions options = test::sample_options(last);
+        const FlattenResult without = test::flatten_sample(last, options);
+        options.request.include_fan = true;
+        const FlattenResult result = test::flatten_sample(last, options);
+        for (std::size_t r = 0; r < result.regions.size(); ++r) {
+            const FlatRegion& flat = result.regions[r];
+            CHECK_FALSE(without.regions[r].fan);
+            CHECK(without.regions[r].chart.uv == flat.chart.uv);
+            CHECK(flat.chart.uv[at(named_base_line(flat.region)->seat)].norm() == 0.0);
             REQUIRE(flat.fan);
-            CHECK(flat.chart.uv[static_cast<std::size_t>(flat.fan->centre)].norm() == 0.0);
+            const Vec2 centre = flat.chart.uv[at(flat.fan->centre)];
             CHECK(flat.fan->mean_distance < flat.fan->radius);
             CHECK(flat.fan->spokes.size() == flat.region.border.size());
             // A last is nearly developable: polar coordinates of the surface and of the chart
             // nearly agree.
             for (std::size_t i = 0; i < flat.fan->spokes.size(); ++i) {
-                const Vec2& p = flat.chart.uv[static_cast<std::size_t>(flat.region.border[i])];
+                const Vec2 p = flat.chart.uv[at(flat.region.border[i])] - centre;
                 const FanSpoke& spoke = flat.fan->spokes[i];
                 CHECK(std::abs(spoke.distance / p.norm() - 1) < 0.06);
                 CHECK(std::abs(std::remainder(spoke.angle - std::atan2(p.y(), p.x()),
@@ -145,14 +153,12 @@ TEST_SUITE("core/flatten") {
         }
     }
 
-    TEST_CASE("a region beyond the bound has a fan only if it is drawn") {
+    TEST_CASE("a region beyond the bound has no fan, and a warning says so") {
         const SampleLast last = make_sample_last();
         FlattenOptions options = test::sample_options(last);
-        options.fan_triangles = 100;
-        CHECK(!test::flatten_sample(last, options).regions[0].fan);
         options.request.draw_fan = true;
         CHECK(test::flatten_sample(last, options).regions[0].fan.has_value());
-        options.drawn_fan_triangles = 100;
+        options.fan_triangles = 100;
         const FlattenResult refused = test::flatten_sample(last, options);
         CHECK(!refused.regions[0].fan);
         REQUIRE(refused.warnings.size() == 2);

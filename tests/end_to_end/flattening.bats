@@ -169,7 +169,7 @@ PYTHON
     start_server
     methods='tutte chord_length shape_preserving harmonic wachspress mean_value virtual_border geodesic_fan mips green_lagrange'
     for name in $methods; do
-        jq -c --arg name "$name" '.method = {name: $name} | .draw = ["fan"]' "$sample/last.request.json" > method.json
+        jq -c --arg name "$name" '.method = {name: $name} | .draw = ["fan"] | .include = ["fan"]' "$sample/last.request.json" > method.json
         flatten "$sample/last.obj" method.json
         curl -sSf "$url$job/result" -o "$name.json"
         jq -e --arg name "$name" '.regions | length == 2 and all(.method == $name and .metrics.flipped_triangles == 0

@@ -63,7 +63,9 @@ bool overlap(const Points2& a, const Points2& b) {
 
 void check_pair(std::vector<Region> regions, double angle, double other_angle) {
     std::vector<Chart> charts{view(regions[0], false, angle), view(regions[1], true, other_angle)};
-    orient_charts(regions, {-1, -1}, {}, charts);
+    orient_charts(regions, {}, charts);
+    CHECK(charts[0].uv[0].norm() == 0.0);  // the seat
+    CHECK(charts[1].uv[0].norm() == 0.0);
     const Sheet sheet = arrange_pair(regions, charts, 10.0);
     CHECK(sheet.placements[0].mirrored != sheet.placements[1].mirrored);
     for (std::size_t r = 0; r < 2; ++r) {
@@ -119,7 +121,11 @@ TEST_SUITE("core/layout") {
         std::vector<Region> regions{half(false), half(true)};
         for (Region& region : regions) region.runs.clear();
         std::vector<Chart> charts{view(regions[0], false, 0.9), view(regions[1], true, -1.3)};
-        orient_charts(regions, {-1, -1}, {}, charts);
+        orient_charts(regions, {}, charts);
+        Eigen::AlignedBox2d box;
+        for (const Vec2& p : charts[0].uv) box.extend(p);
+        CHECK(box.exteriorDistance(Vec2::Zero()) == 0.0);
+        CHECK(std::abs(box.center().x()) < 0.1 * box.sizes().x());
         const Sheet sheet = arrange_pair(regions, charts, 10.0);
         CHECK(sheet.placements[0].mirrored != sheet.placements[1].mirrored);
         const auto toe_to_the_right = [&](std::size_t r) {
