@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
 
@@ -14,40 +13,26 @@ namespace {
 /// Of the surface's area to the power of 3/2. A half of a last: about 4 mm^3.
 constexpr double stiffness_share = 1.5e-6;
 
-/// Angles on the surface, by the directed edge that a corner's triangle begins with.
-class Corners {
-public:
-    explicit Corners(const Region& region) {
-        for (const Triangle& t : region.triangles) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                const Index a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
-                next_[{a, b}] = {
-                    c, angle_at(region.position(a), region.position(b), region.position(c))};
-            }
-        }
+/// The angle at b from the edge to c, counter-clockwise, to the edge to a; nothing if the surface
+/// does not reach from one to the other.
+std::optional<double> left_angle(const Region& region, Index a, Index b, Index c) {
+    const HalfEdges& half_edges = region.half_edges;
+    const Index first = half_edges.find(b, c);
+    double sum = 0.0;
+    for (Index h = first; h >= 0;) {
+        const Index beside = half_edges.apex(h);
+        sum += angle_at(region.position(b), region.position(half_edges.to(h)),
+                        region.position(beside));
+        if (beside == a) return sum;
+        h = half_edges.rotated(h);
+        if (h == first) break;
     }
-
-    /// The angle at b from the edge to c, counter-clockwise, to the edge to a; nothing if the
-    /// surface does not reach from one to the other.
-    [[nodiscard]] std::optional<double> left_angle(Index a, Index b, Index c) const {
-        double sum = 0.0;
-        for (Index v = c; v != a;) {
-            const auto found = next_.find({b, v});
-            if (found == next_.end()) return std::nullopt;
-            sum += found->second.second;
-            v = found->second.first;
-            if (v == c) return std::nullopt;
-        }
-        return sum;
-    }
-
-private:
-    std::map<std::pair<Index, Index>, std::pair<Index, double>> next_;
-};
+    return std::nullopt;
+}
 
 /// How much the path a, b, c turns on the surface: what its two sides agree on, or its only one.
-double turn_on_surface(const Corners& corners, Index a, Index b, Index c) {
-    const auto left = corners.left_angle(a, b, c), right = corners.left_angle(c, b, a);
+double turn_on_surface(const Region& region, Index a, Index b, Index c) {
+    const auto left = left_angle(region, a, b, c), right = left_angle(region, c, b, a);
     if (left && right) return 0.5 * (*right - *left);
     if (left) return std::numbers::pi - *left;
     if (right) return *right - std::numbers::pi;
@@ -87,14 +72,13 @@ Eigen::Matrix2d angle_hessian(const Vec2& e) {
 WireStiffness::WireStiffness(const Domain& domain, const std::vector<Wire>& wires) {
     for (const Wire& wire : wires) {
         const Region& region = *domain.regions[wire.region];
-        const Corners corners(region);
         const double k = stiffness_share * std::pow(surface_area(region), 1.5);
         const Index first = domain.first[wire.region];
         for (std::size_t i = 1; i + 1 < wire.vertices.size(); ++i) {
             const Index a = wire.vertices[i - 1], b = wire.vertices[i], c = wire.vertices[i + 1];
             const double length = 0.5 * (region.distance(a, b) + region.distance(b, c));
             bends_.push_back(
-                {{a + first, b + first, c + first}, turn_on_surface(corners, a, b, c), k / length});
+                {{a + first, b + first, c + first}, turn_on_surface(region, a, b, c), k / length});
         }
     }
 }

@@ -39,6 +39,26 @@ Triangle sorted(Triangle t) {
     return t;
 }
 
+/// Whether any two triangles have the same three vertices.
+bool has_repetition(const Faces& faces) {
+    std::vector<std::size_t> end(faces.positions.size() + 1, 0);  // of those with a least vertex
+    for (const Triangle& t : faces.triangles) ++end[at(*std::min_element(t.begin(), t.end())) + 1];
+    for (std::size_t v = 1; v < end.size(); ++v) end[v] += end[v - 1];
+    const std::vector<std::size_t> begin = end;
+    std::vector<std::pair<Index, Index>> others(faces.triangles.size());
+    for (const Triangle& triangle : faces.triangles) {
+        const Triangle t = sorted(triangle);
+        others[end[at(t[0])]++] = {t[1], t[2]};
+    }
+    for (std::size_t v = 0; v + 1 < begin.size(); ++v) {
+        const auto first = others.begin() + static_cast<std::ptrdiff_t>(begin[v]);
+        const auto last = others.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]);
+        std::sort(first, last);
+        if (std::adjacent_find(first, last) != last) return true;
+    }
+    return false;
+}
+
 /// As many wind one way as the other, and without them no edge is left with an odd number of sides:
 /// a wall without thickness, that bounds nothing.
 bool bounds_nothing(const Triangle& t, const Repeated& repeated,
@@ -52,6 +72,7 @@ bool bounds_nothing(const Triangle& t, const Repeated& repeated,
 /// Walls go, of others one stays. Where most faces are there twice the model is a sheet with two
 /// sides.
 void drop_repetitions(Faces& faces, RepairNote& note) {
+    if (!has_repetition(faces)) return;
     std::map<Triangle, Repeated> all;
     for (const Triangle& t : faces.triangles) {
         const auto least =
@@ -59,7 +80,6 @@ void drop_repetitions(Faces& faces, RepairNote& note) {
         Repeated& repeated = all[sorted(t)];
         ++(t[(least + 1) % 3] < t[(least + 2) % 3] ? repeated.forward : repeated.backward);
     }
-    if (all.size() == faces.triangles.size()) return;
     const bool is_sheet = 4 * all.size() < 3 * faces.triangles.size();
     std::map<std::pair<Index, Index>, std::size_t> sides;
     for (const Side& side : sides_by_edge(faces.triangles)) ++sides[{side.low, side.high}];

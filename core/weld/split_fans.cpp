@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "core/numerics/disjoint_sets.h"
@@ -78,32 +79,50 @@ void join_around(std::vector<Side> sides, Partners partners, DisjointSets& fans)
     for (std::size_t i = 0; i < begins.size(); ++i) join_across(begins[i], ends[i], fans);
 }
 
+/// Joins the corners of faces that hang together over an edge. Returns whether an edge has more
+/// than two faces.
+bool join_fans(const Faces& faces, Partners partners, DisjointSets& fans) {
+    const auto sides = sides_by_edge(faces.triangles);
+    std::optional<DisjointSets> patches;
+    for_each_edge(sides, [&](auto first, auto last) {
+        if (last - first == 2 && first->forward != (first + 1)->forward)
+            join_across(*first, *(first + 1), fans);
+        if (last - first <= 2) return;
+        if (!patches) patches = patches_of(faces.triangles, sides);
+        const SideRange range{first, last};
+        const bool one_patch = std::all_of(first, last, [&](const Side& side) {
+            return patches->find(side.triangle) == patches->find(first->triangle);
+        });
+        if ((last - first) % 2 == 1 && !one_patch) return join_all(range, fans);
+        join_around(around_edge(faces, range), partners, fans);
+    });
+    return patches.has_value();
+}
+
 /// A corner, its vertex, and the fan that it is in.
 struct FanCorner {
     Index vertex, fan, corner;
 };
 
-std::vector<FanCorner> corners_by_fan(const Faces& faces, Partners partners) {
-    const auto sides = sides_by_edge(faces.triangles);
-    DisjointSets patches = patches_of(faces.triangles, sides);
-    DisjointSets fans(3 * faces.triangles.size());
-    for_each_edge(sides, [&](auto first, auto last) {
-        const SideRange range{first, last};
-        const bool one_patch = std::all_of(first, last, [&](const Side& side) {
-            return patches.find(side.triangle) == patches.find(first->triangle);
-        });
-        if ((last - first) % 2 == 1 && !one_patch) return join_all(range, fans);
-        const bool crowded = last - first > 2;
-        join_around(around_edge(faces, range), crowded ? partners : Partners::that_bound_material,
-                    fans);
+/// Of the vertices that have several fans.
+std::vector<FanCorner> corners_by_fan(const Faces& faces, DisjointSets& fans) {
+    constexpr Index none = -1, several = -2;
+    std::vector<Index> fan_of(faces.positions.size(), none);
+    const auto for_each_corner = [&](const auto& visit) {
+        for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
+            for (std::size_t i = 0; i < 3; ++i)
+                visit(faces.triangles[t][i], static_cast<Index>(3 * t + i));
+        }
+    };
+    for_each_corner([&](Index vertex, Index corner) {
+        Index& fan = fan_of[at(vertex)];
+        const Index own = fans.find(corner);
+        fan = fan == none || fan == own ? own : several;
     });
     std::vector<FanCorner> corners;
-    for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto corner = static_cast<Index>(3 * t + i);
-            corners.push_back({faces.triangles[t][i], fans.find(corner), corner});
-        }
-    }
+    for_each_corner([&](Index vertex, Index corner) {
+        if (fan_of[at(vertex)] == several) corners.push_back({vertex, fans.find(corner), corner});
+    });
     std::sort(corners.begin(), corners.end(), [](const FanCorner& a, const FanCorner& b) {
         return std::tie(a.vertex, a.fan, a.corner) < std::tie(b.vertex, b.fan, b.corner);
     });
@@ -122,8 +141,11 @@ void give_copy(Faces& faces, Index vertex, const Corners& first, const Corners& 
         faces.triangles[at(corner->corner / 3)][at(corner->corner % 3)] = copy;
 }
 
-void split(Faces& faces, Partners partners) {
-    const auto corners = corners_by_fan(faces, partners);
+/// Returns whether an edge had more than two faces.
+bool split(Faces& faces, Partners partners) {
+    DisjointSets fans(3 * faces.triangles.size());
+    const bool was_crowded = join_fans(faces, partners, fans);
+    const auto corners = corners_by_fan(faces, fans);
     for (auto first = corners.begin(); first != corners.end();) {
         const Index vertex = first->vertex;
         auto largest = first, largest_end = first;
@@ -144,6 +166,7 @@ void split(Faces& faces, Partners partners) {
         }
         first = last;
     }
+    return was_crowded;
 }
 
 bool has_crowded_edge(const Faces& faces) {
@@ -156,8 +179,8 @@ bool has_crowded_edge(const Faces& faces) {
 }  // namespace
 
 void split_fans(Faces& faces) {
-    split(faces, Partners::that_bound_material);
-    if (has_crowded_edge(faces)) split(faces, Partners::others);
+    const bool was_crowded = split(faces, Partners::that_bound_material);
+    if (was_crowded && has_crowded_edge(faces)) (void)split(faces, Partners::others);
 }
 
 void list_split_vertices(const Faces& faces, std::vector<Repair>& repairs) {

@@ -133,16 +133,21 @@ std::size_t count_pieces(const Faces& faces) {
 }
 
 /// Leaves at most two faces at every edge and one fan at every vertex, as far as that can be told.
-void make_manifold(Faces& faces, std::vector<Repair>& repairs) {
+/// `sound`: triangles that need it not; those of which that is found.
+void make_manifold(Faces& faces, std::vector<Repair>& repairs, std::vector<Triangle>& sound) {
+    if (faces.triangles == sound) return;
+    sound = faces.triangles;
     wind_alike(faces, repairs);
     drop_fins(faces, repairs);
     split_fans(faces);
+    if (faces.triangles != sound) sound.clear();
 }
 
 void stitch_borders(double tolerance, Faces& faces, std::vector<Repair>& repairs) {
     stitch(faces, tolerance, repairs);
     clean_faces(faces, repairs);
-    make_manifold(faces, repairs);
+    std::vector<Triangle> sound;
+    make_manifold(faces, repairs, sound);
 }
 
 /// Several pieces that stitching makes one model, closed but for small holes, were meant as one,
@@ -246,16 +251,17 @@ void mend(const RawMesh& raw, const WeldOptions& options, HoleRule holes, Faces&
     drop_repeated_faces(faces, repairs);
     wind_alike(faces, repairs);
     const std::optional<Error> parted = edge_to_part(faces);
-    make_manifold(faces, repairs);
+    std::vector<Triangle> sound;
+    make_manifold(faces, repairs, sound);
     drop_strays(faces, repairs);
     clean_faces(faces, repairs);
     if (faces.triangles.empty())
         throw Error(ErrorCode::mesh_degenerate, "no face is left to flatten");
-    make_manifold(faces, repairs);
+    make_manifold(faces, repairs, sound);
     close_borders(options, holes, !joins_coincident(raw, options), faces, repairs);
     close_t_junctions(faces, tolerance::same_position * size_of(faces), repairs);
     clean_faces(faces, repairs);
-    make_manifold(faces, repairs);
+    make_manifold(faces, repairs, sound);
     if (holes == HoleRule::automatic) close_small_holes(faces, repairs);
     if (parted && !is_closed(faces.triangles)) throw *parted;
     if (options.groups.empty()) drop_inner_shells(faces, repairs);
