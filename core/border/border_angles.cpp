@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "core/numerics/geometry.h"
-#include "core/numerics/spd_cholesky.h"
+#include "core/numerics/multifrontal_ldlt.h"
 #include "core/numerics/tolerances.h"
 
 namespace lastflat {
@@ -46,33 +46,24 @@ Corners corners_of(const Region& region) {
     return corners;
 }
 
-/// The inner vertices in the order in which they are eliminated.
-std::vector<Index> inner_vertices(const Region& region, const EliminationOrder& order) {
-    std::vector<Index> inner;
-    for (const Index v : order) {
-        if (!region.half_edges.on_border(v)) inner.push_back(v);
-    }
-    return inner;
-}
-
-/// The cotangent Laplacian between inner vertices in this order, upper triangle.
+/// The cotangent Laplacian between inner vertices in this order, lower triangle.
 SparseMatrix inner_laplacian(const Region& region, const Corners& corners,
                              const std::vector<Index>& inner) {
     const auto count = static_cast<Index>(inner.size());
     const auto index = inverse(inner, region.positions.size());
     SparseMatrix A_ii(count, count);
     A_ii.reserve(static_cast<Eigen::Index>(4) * count);
-    std::vector<Index> above;
+    std::vector<Index> below;
     for (Index k = 0; k < count; ++k) {
-        above.clear();
+        below.clear();
         for (const Index w : region.half_edges.ring(inner[static_cast<std::size_t>(k)])) {
             const Index row = index[at(w)];
-            if (row >= 0 && row < k) above.push_back(row);
+            if (row > k) below.push_back(row);
         }
-        std::sort(above.begin(), above.end());
+        std::sort(below.begin(), below.end());
         A_ii.startVec(k);
-        for (const Index row : above) A_ii.insertBackByOuterInner(k, row) = 0.0;
         A_ii.insertBackByOuterInner(k, k) = 0.0;
+        for (const Index row : below) A_ii.insertBackByOuterInner(k, row) = 0.0;
     }
     A_ii.finalize();
     double* values = A_ii.valuePtr();
@@ -83,10 +74,10 @@ SparseMatrix inner_laplacian(const Region& region, const Corners& corners,
             const double weight = corners.half_cotangents[t][i];
             const Index a = index[at(region.triangles[t][(i + 1) % 3])];
             const Index b = index[at(region.triangles[t][(i + 2) % 3])];
-            if (a >= 0) values[begin[a + 1] - 1] += weight;  // the diagonal comes last
-            if (b >= 0) values[begin[b + 1] - 1] += weight;
+            if (a >= 0) values[begin[a]] += weight;  // the diagonal comes first
+            if (b >= 0) values[begin[b]] += weight;
             if (a < 0 || b < 0) continue;
-            const auto [row, column] = std::minmax(a, b);
+            const auto [column, row] = std::minmax(a, b);
             values[std::lower_bound(rows + begin[column], rows + begin[column + 1], row) - rows] -=
                 weight;
         }
@@ -95,9 +86,11 @@ SparseMatrix inner_laplacian(const Region& region, const Corners& corners,
 }
 
 /// Scale factors u of the conformal map that keeps border lengths: A_II u = -Omega, u = 0 outside.
-std::vector<double> conformal_scale(const Region& region, const EliminationOrder& order,
+std::vector<double> conformal_scale(const Region& region, const Dissection& dissection,
                                     const Corners& corners) {
-    const auto inner = inner_vertices(region, order);
+    const Elimination elimination =
+        elimination_of(dissection, [&](Index v) { return !region.half_edges.on_border(v); });
+    const std::vector<Index>& inner = elimination.vertices;
     std::vector<double> u(region.positions.size(), 0.0);
     if (inner.empty()) return u;
     Eigen::VectorXd omega(static_cast<Eigen::Index>(inner.size()));
@@ -105,17 +98,21 @@ std::vector<double> conformal_scale(const Region& region, const EliminationOrder
         omega[static_cast<Eigen::Index>(k)] =
             2.0 * pi - corners.angle_sums[static_cast<std::size_t>(inner[k])];
     }
-    const Eigen::VectorXd solution =
-        SpdCholesky(inner_laplacian(region, corners, inner)).solve(-omega);
+    const SparseMatrix laplacian = inner_laplacian(region, corners, inner);
+    MultifrontalLdlt solver;
+    solver.analyse(laplacian, elimination.blocks);
+    if (!solver.factor(laplacian, Progress()) || solver.negative_pivots() > 0)
+        throw Error(ErrorCode::solver_failed, "a linear system is not positive definite");
+    const Eigen::VectorXd solution = solver.solve(-omega);
     for (std::size_t k = 0; k < inner.size(); ++k) {
         u[static_cast<std::size_t>(inner[k])] = solution[static_cast<Eigen::Index>(k)];
     }
     return u;
 }
 
-std::vector<double> curvature_turning(const Region& region, const EliminationOrder& order,
+std::vector<double> curvature_turning(const Region& region, const Dissection& dissection,
                                       const Corners& corners) {
-    const auto u = conformal_scale(region, order, corners);
+    const auto u = conformal_scale(region, dissection, corners);
     std::vector<double> flux(region.positions.size(), 0.0);  // A u
     for (std::size_t t = 0; t < region.triangles.size(); ++t) {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -169,7 +166,7 @@ void close_turning(const Region& region, std::vector<double>& turning) {
 
 }  // namespace
 
-BorderAngles border_angles(const Region& region, const EliminationOrder& order, AngleRule rule) {
+BorderAngles border_angles(const Region& region, const Dissection& dissection, AngleRule rule) {
     const Corners triangles = corners_of(region);
     const auto& sums = triangles.angle_sums;
     BorderAngles result;
@@ -184,7 +181,7 @@ BorderAngles border_angles(const Region& region, const EliminationOrder& order, 
         }
     }
     if (rule == AngleRule::curvature) {
-        result.turning = curvature_turning(region, order, triangles);
+        result.turning = curvature_turning(region, dissection, triangles);
     } else {
         for (const auto& corners : result.corners) {
             result.turning.push_back(pi - std::accumulate(corners.begin(), corners.end(), 0.0));

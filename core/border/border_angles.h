@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/cut/region.h"
-#include "core/numerics/elimination_order.h"
+#include "core/numerics/surface_elimination.h"
 #include "core/request.h"
 
 namespace lastflat {
@@ -20,9 +20,9 @@ struct BorderAngles {
 ///         Laplacian A, A u = -Gauss curvature inside, u = 0 on the border; the turning becomes
 ///         k + A u. `averaged_conformal`: [kim-kim], section 3.3; what is missing from 2 pi is
 ///         spread over the border in proportion to its length.
-/// In:     a region (a disk), the elimination order of its half-edges.
+/// In:     a region (a disk), its `dissection_of`.
 /// Throws: Error{solver_failed}.
-[[nodiscard]] BorderAngles border_angles(const Region& region, const EliminationOrder& order,
+[[nodiscard]] BorderAngles border_angles(const Region& region, const Dissection& dissection,
                                          AngleRule rule);
 
 }  // namespace lastflat

@@ -23,10 +23,10 @@ std::string border_edge_name(const Region& region, std::size_t i) {
 
 }  // namespace
 
-BorderPolygon border_polygon(const Region& region, const EliminationOrder& order,
+BorderPolygon border_polygon(const Region& region, const Dissection& dissection,
                              const std::vector<bool>& locked, AngleRule rule) {
     BorderPolygon polygon;
-    polygon.angles = border_angles(region, order, rule);
+    polygon.angles = border_angles(region, dissection, rule);
     polygon.points = tweak_edges(border_lengths(region), polygon.angles.turning, locked,
                                  [&](std::size_t edge) { return border_edge_name(region, edge); });
     return polygon;

@@ -16,7 +16,7 @@ struct BorderPolygon {
 /// In:     per border edge, whether its length is locked while the polygon is closed.
 /// Throws: Error{method_failed} naming the curve if the polygon cannot be closed;
 ///         Error{solver_failed}.
-[[nodiscard]] BorderPolygon border_polygon(const Region& region, const EliminationOrder& order,
+[[nodiscard]] BorderPolygon border_polygon(const Region& region, const Dissection& dissection,
                                            const std::vector<bool>& locked, AngleRule rule);
 
 }  // namespace lastflat

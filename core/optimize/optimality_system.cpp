@@ -339,15 +339,15 @@ Eigen::VectorXd OptimalitySystem::solve(const Eigen::VectorXd& top,
     Eigen::VectorXd right(top.size() + bottom.size());
     right << top, bottom;
     Eigen::VectorXd solution = solver_.solve(right);
-    // Refinement takes the multipliers' regularisation out again: one step as a rule, more where a
-    // soft row says nearly the same as exact ones.
+    // Refinement takes the multipliers' regularisation out again where a soft row says nearly the
+    // same as exact ones. The next step of Newton's takes out what is left.
     constexpr int most_steps = 4;
     double before = infinity;
     for (int step = 0; step < most_steps; ++step) {
         Eigen::VectorXd rest = right - matrix_.selfadjointView<Eigen::Lower>() * solution;
         for (const Index row : regularised_) rest[row] -= regularisation_ * solution[row];
         const double norm = rest.norm();
-        if (norm <= tolerance::refined * right.norm() || norm > 0.5 * before) break;
+        if (norm <= tolerance::newton_residual * right.norm() || norm > 0.5 * before) break;
         before = norm;
         solution += solver_.solve(rest);
     }

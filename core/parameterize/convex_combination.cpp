@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/numerics/dominant_lu.h"
+#include "core/numerics/multifrontal_lu.h"
 
 namespace lastflat {
 
@@ -55,15 +55,14 @@ MeanSystem mean_system(const WeightRows& rows, const Points2& fixed,
 }  // namespace
 
 Points2 solve_convex_combinations(const WeightRows& rows, const Points2& fixed,
-                                  const EliminationOrder& order) {
-    std::vector<Index> unknown;
-    for (const Index v : order) {
-        if (!rows[static_cast<std::size_t>(v)].empty()) unknown.push_back(v);
-    }
+                                  const Dissection& dissection) {
+    const Elimination elimination =
+        elimination_of(dissection, [&](Index v) { return !rows[at(v)].empty(); });
+    const std::vector<Index>& unknown = elimination.vertices;
     Points2 points = fixed;
     if (unknown.empty()) return points;
     const MeanSystem system = mean_system(rows, fixed, unknown);
-    const DominantLu factor{SparseMatrix(system.A)};
+    const MultifrontalLu factor(SparseMatrix(system.A), elimination.blocks);
     Eigen::MatrixXd x = factor.solve(system.b);
     // Negative weights take the guarantee against small pivots away: refine what they cost.
     for (int refinement = 0; refinement < (system.dominant ? 0 : 2); ++refinement) {

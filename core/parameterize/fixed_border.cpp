@@ -16,7 +16,8 @@ Chart flatten_fixed_border(const Region& region, WeightRule weights, const Point
     for (std::size_t i = 0; i < border.size(); ++i) {
         fixed[static_cast<std::size_t>(region.border[i])] = border[i];
     }
-    return {solve_convex_combinations(rows, fixed, elimination_order(region.half_edges))};
+    return {
+        solve_convex_combinations(rows, fixed, dissection_of(region.positions, region.half_edges))};
 }
 
 }  // namespace lastflat

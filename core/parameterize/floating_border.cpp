@@ -37,7 +37,7 @@ Star floating_star(const Region& region, std::size_t i, const BorderPolygon& pol
 
 }  // namespace
 
-Chart flatten_floating_border(const Region& region, const EliminationOrder& order,
+Chart flatten_floating_border(const Region& region, const Dissection& dissection,
                               WeightRule weights, const BorderPolygon& polygon) {
     const auto lengths = border_lengths(region);
     const double mean_edge =
@@ -57,7 +57,7 @@ Chart flatten_floating_border(const Region& region, const EliminationOrder& orde
     }
     Points2 fixed(region.positions.size(), Vec2::Zero());
     fixed.insert(fixed.end(), partners.begin(), partners.end());
-    Points2 points = solve_convex_combinations(rows, fixed, order);
+    Points2 points = solve_convex_combinations(rows, fixed, dissection);
     points.resize(region.positions.size());
     return {std::move(points)};
 }

@@ -16,7 +16,7 @@ namespace lastflat {
 /// In:     a region, the elimination order of its half-edges; the border's polygon.
 /// Out:    not yet scaled: the layer's tension changes lengths by a few percent.
 /// Throws: Error{method_failed} if the polygon winds around itself; Error{solver_failed}.
-[[nodiscard]] Chart flatten_floating_border(const Region& region, const EliminationOrder& order,
+[[nodiscard]] Chart flatten_floating_border(const Region& region, const Dissection& dissection,
                                             WeightRule weights, const BorderPolygon& polygon);
 
 }  // namespace lastflat

@@ -12,9 +12,9 @@ namespace {
 
 Chart floating_chart(const Region& region, const std::vector<bool>& locked, WeightRule weights,
                      AngleRule angles) {
-    const EliminationOrder order = elimination_order(region.half_edges);
-    return flatten_floating_border(region, order, weights,
-                                   border_polygon(region, order, locked, angles));
+    const Dissection dissection = dissection_of(region.positions, region.half_edges);
+    return flatten_floating_border(region, dissection, weights,
+                                   border_polygon(region, dissection, locked, angles));
 }
 
 /// Why a chart cannot be the start of an energy; empty: it can.
@@ -135,8 +135,9 @@ Points2 convex_border(const Region& region, const std::vector<bool>& locked, Bor
         case BorderShape::square: return bulged_under_chords(region, square_border(region));
         case BorderShape::hull: {
             return bulged_under_chords(
-                region, hull_border(border_polygon(region, elimination_order(region.half_edges),
-                                                   locked, angles)
+                region, hull_border(border_polygon(
+                                        region, dissection_of(region.positions, region.half_edges),
+                                        locked, angles)
                                         .points));
         }
         case BorderShape::circle:

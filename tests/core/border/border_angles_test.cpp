@@ -11,7 +11,7 @@ namespace lastflat {
 namespace {
 
 BorderAngles angles_of(const Region& region, AngleRule rule) {
-    return border_angles(region, elimination_order(region.half_edges), rule);
+    return border_angles(region, dissection_of(region.positions, region.half_edges), rule);
 }
 
 using std::numbers::pi;

@@ -10,7 +10,7 @@
 namespace lastflat {
 namespace {
 
-Points2 shadow(const Region& region) {
+Points2 seen_from_above(const Region& region) {
     Points2 points;
     for (const Vec3& p : region.positions) points.emplace_back(p.x(), p.y());
     return points;
@@ -44,11 +44,11 @@ TEST_SUITE("core/export/super_level") {
         const Region region = square();
         const auto values = values_of(region, [](const Vec3& p) { return p.x() + 0.3 * p.y(); });
         // x + 0.3 y >= 4 leaves the trapezium with widths 6 and 9.
-        const auto loops = super_level_loops(region, shadow(region), values, 4.0);
+        const auto loops = super_level_loops(region, seen_from_above(region), values, 4.0);
         CHECK(loops.size() == 1);
         CHECK(area_of(loops) == doctest::Approx(75.0));
-        CHECK(super_level_loops(region, shadow(region), values, 13.5).empty());
-        CHECK(area_of(super_level_loops(region, shadow(region), values, -1.0)) ==
+        CHECK(super_level_loops(region, seen_from_above(region), values, 13.5).empty());
+        CHECK(area_of(super_level_loops(region, seen_from_above(region), values, -1.0)) ==
               doctest::Approx(100.0));
     }
 
@@ -64,9 +64,10 @@ TEST_SUITE("core/export/super_level") {
         const double whole = surface_area(region);
         for (const double level : {-0.6, -0.1, 0.0, 0.2, 0.7}) {
             CAPTURE(level);
-            const double above = area_of(super_level_loops(region, shadow(region), values, level));
+            const double above =
+                area_of(super_level_loops(region, seen_from_above(region), values, level));
             const double below =
-                area_of(super_level_loops(region, shadow(region), negative, -level));
+                area_of(super_level_loops(region, seen_from_above(region), negative, -level));
             CHECK(above > 0.0);
             CHECK(above < whole);
             CHECK(above + below == doctest::Approx(whole));
@@ -77,7 +78,7 @@ TEST_SUITE("core/export/super_level") {
         const Region region = square();
         const auto values = values_of(
             region, [](const Vec3& p) { return -std::abs((p - Vec3(5, 5, 0)).norm() - 3.0); });
-        const auto ring = super_level_loops(region, shadow(region), values, -0.8);
+        const auto ring = super_level_loops(region, seen_from_above(region), values, -0.8);
         REQUIRE(ring.size() == 2);
         CHECK(area_of({ring[0]}) * area_of({ring[1]}) < 0.0);
     }
