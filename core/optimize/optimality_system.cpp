@@ -170,12 +170,27 @@ Index OptimalitySystem::slot(Index row, Index column) const {
 }
 
 OptimalitySystem::Slots OptimalitySystem::slots_of(const Triangle& element) const {
+    // Of the block of two vertices the upper left entry is looked for. Below it stands the next one
+    // of its column; the second column has the same rows but the first of the diagonal block.
+    std::array<std::array<Index, 3>, 3> first{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j <= i; ++j) {
+            const auto [low, high] = std::minmax(element[i], element[j]);
+            first[i][j] = slot(2 * high, 2 * low);
+        }
+    }
     Slots slots{};
     std::size_t next = 0;
-    for (Index i = 0; i < 6; ++i) {
-        for (Index j = 0; j <= i; ++j) {
-            const Index a = 2 * element[at(i / 2)] + i % 2, b = 2 * element[at(j / 2)] + j % 2;
-            slots[next++] = slot(std::max(a, b), std::min(a, b));
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = 0; j <= i; ++j) {
+            const auto [low, high] = std::minmax(element[i / 2], element[j / 2]);
+            const bool swapped = element[i / 2] < element[j / 2];
+            Index row = static_cast<Index>(i % 2), column = static_cast<Index>(j % 2);
+            if (swapped) std::swap(row, column);
+            const Index begin = matrix_.outerIndexPtr()[2 * low];
+            const Index second = matrix_.outerIndexPtr()[2 * low + 1];
+            const Index upper_left = first[i / 2][j / 2];
+            slots[next++] = column == 0 ? upper_left + row : upper_left - begin + second - 1 + row;
         }
     }
     return slots;

@@ -15,7 +15,7 @@ Loop loop_of(const Faces& faces, std::vector<Index> vertices) {
 
 std::vector<Loop> border_loops(const Faces& faces) {
     std::map<Index, std::vector<Index>> next;
-    for_each_edge(sides_by_edge(faces.triangles), [&](auto first, auto last) {
+    for_each_edge(faces.sides(), [&](auto first, auto last) {
         if (last - first == 1) next[first->from()].push_back(first->to());
     });
     std::vector<Loop> loops;

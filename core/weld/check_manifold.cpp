@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "core/numerics/disjoint_sets.h"
-#include "core/weld/sides.h"
 
 namespace lastflat {
 namespace {
@@ -40,8 +39,8 @@ void check_fans(const Points3& positions, const std::vector<Triangle>& triangles
 
 }  // namespace
 
-void check_manifold(const Points3& positions, const std::vector<Triangle>& triangles) {
-    const auto sides = sides_by_edge(triangles);
+void check_manifold(const Points3& positions, const std::vector<Triangle>& triangles,
+                    const std::vector<Side>& sides) {
     DisjointSets fans(3 * triangles.size());
     for (std::size_t i = 0; i < sides.size();) {
         std::size_t end = i + 1;
@@ -64,8 +63,7 @@ void check_manifold(const Points3& positions, const std::vector<Triangle>& trian
     check_fans(positions, triangles, fans);
 }
 
-bool is_closed(const std::vector<Triangle>& triangles) {
-    const auto sides = sides_by_edge(triangles);
+bool is_closed(const std::vector<Side>& sides) {
     if (sides.size() % 2 != 0) return false;
     for (std::size_t i = 0; i < sides.size(); i += 2) {
         if (!sides[i].same_edge(sides[i + 1]) || sides[i].forward == sides[i + 1].forward)

@@ -82,7 +82,7 @@ void drop_repetitions(Faces& faces, RepairNote& note) {
     }
     const bool is_sheet = 4 * all.size() < 3 * faces.triangles.size();
     std::map<std::pair<Index, Index>, std::size_t> sides;
-    for (const Side& side : sides_by_edge(faces.triangles)) ++sides[{side.low, side.high}];
+    for (const Side& side : faces.sides()) ++sides[{side.low, side.high}];
     for (auto& [t, repeated] : all) {
         repeated.cancels = !is_sheet && repeated.backward > 0 && bounds_nothing(t, repeated, sides);
     }
@@ -135,7 +135,7 @@ bool join_short_edges(Faces& faces, RepairNote& note) {
 /// Takes a flat triangle out and puts its middle vertex into the longest side's other triangle.
 /// Whether there was one; one at a time for each neighbourhood.
 bool remove_caps(Faces& faces, RepairNote& note) {
-    const auto sides = sides_by_edge(faces.triangles);
+    const auto& sides = faces.sides();
     std::vector<Index> flat;
     for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
         if (is_flat(faces, faces.triangles[t])) flat.push_back(static_cast<Index>(t));
@@ -183,7 +183,7 @@ struct Clash {
 void join_touching(const Faces& faces, DisjointSets& pieces) {
     std::vector<Index> border;
     Points3 positions;
-    for_each_edge(sides_by_edge(faces.triangles), [&](auto first, auto last) {
+    for_each_edge(faces.sides(), [&](auto first, auto last) {
         if (last - first != 1) return;
         border.push_back(first->from());
         positions.push_back(faces.position(first->from()));
@@ -235,6 +235,11 @@ void Faces::rename() {
     }
 }
 
+const std::vector<Side>& Faces::sides() const {
+    if (known.triangles != triangles) known = {triangles, sides_by_edge(triangles)};
+    return known.sides;
+}
+
 double size_of(const Faces& faces) {
     Eigen::AlignedBox3d box;
     for (const Triangle& t : faces.triangles) {
@@ -270,7 +275,7 @@ void clean_faces(Faces& faces, std::vector<Repair>& repairs) {
 
 void wind_alike(Faces& faces, std::vector<Repair>& repairs) {
     const std::size_t count = faces.triangles.size();
-    const auto sides = sides_by_edge(faces.triangles);
+    const auto& sides = faces.sides();
     DisjointSets patches = patches_of(faces.triangles, sides);
     std::vector<Clash> clashes;
     for_each_edge(sides, [&](auto first, auto last) {

@@ -3,21 +3,29 @@
 
 #include "core/weld/face_origin.h"
 #include "core/weld/repair.h"
+#include "core/weld/sides.h"
 
 namespace lastflat {
 
 /// Triangles while they are mended. `welded_to[v]` stands for vertex v. The last vertices are
-/// copies of others.
+/// copies of others. Not for several threads.
 struct Faces {
+    struct Known {
+        std::vector<Triangle> triangles;
+        std::vector<Side> sides;
+    };
     Points3 positions;
     std::vector<Triangle> triangles;
     std::vector<FaceOrigin> origins;  ///< per triangle
     std::vector<Index> welded_to;
     std::vector<Index> copies{};  ///< per copy, whose
+    mutable Known known{};        ///< for `sides`
 
     [[nodiscard]] const Vec3& position(Index vertex) const {
         return positions[static_cast<std::size_t>(vertex)];
     }
+    /// `sides_by_edge` of the triangles as they are; valid until they change.
+    [[nodiscard]] const std::vector<Side>& sides() const;
     /// Renames the triangles' vertices after `welded_to` has changed.
     void rename();
     /// Keeps the triangles for which it is true.

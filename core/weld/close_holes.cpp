@@ -91,7 +91,7 @@ void close_small_holes(Faces& faces, std::vector<Repair>& repairs) {
     if (!has_only_small_holes(faces)) return;
     const auto loops = simple_loops(faces);
     std::set<std::pair<Index, Index>> edges;
-    for (const Side& side : sides_by_edge(faces.triangles)) edges.emplace(side.low, side.high);
+    for (const Side& side : faces.sides()) edges.emplace(side.low, side.high);
     Repair repair{"holes_closed", "", loops.size()};
     for (const Loop& loop : loops) {
         const FaceOrigin origin = origin_beside(faces, loop).filling_beside();

@@ -21,7 +21,7 @@ int excess(const Sides& first, const Sides& last) {
 }  // namespace
 
 void drop_fins(Faces& faces, std::vector<Repair>& repairs) {
-    const auto sides = sides_by_edge(faces.triangles);
+    const auto& sides = faces.sides();
     DisjointSets patches = patches_of(faces.triangles, sides);
     std::map<Index, double> areas;
     double largest = 0.0;
@@ -62,7 +62,7 @@ void drop_fins(Faces& faces, std::vector<Repair>& repairs) {
 
 std::optional<Error> edge_to_part(const Faces& faces) {
     std::optional<Error> found;
-    for_each_edge(sides_by_edge(faces.triangles), [&](auto first, auto last) {
+    for_each_edge(faces.sides(), [&](auto first, auto last) {
         const auto count = last - first;
         const bool clash = count == 2 && excess(first, last) != 0;
         if (found || (!clash && (count < 3 || count % 2 == 0))) return;

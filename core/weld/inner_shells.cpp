@@ -52,7 +52,7 @@ std::map<Index, Piece> pieces_of(const Faces& faces) {
 }  // namespace
 
 void drop_inner_shells(Faces& faces, std::vector<Repair>& repairs) {
-    if (!is_closed(faces.triangles)) return;
+    if (!is_closed(faces.sides())) return;
     const auto pieces = pieces_of(faces);
     if (pieces.size() < 2) return;
     const Piece* outer = nullptr;

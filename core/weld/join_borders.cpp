@@ -159,7 +159,7 @@ private:
 
 bool every_edge_has_two_sides_at_most(const Faces& faces) {
     bool sound = true;
-    for_each_edge(sides_by_edge(faces.triangles),
+    for_each_edge(faces.sides(),
                   [&](auto first, auto last) { sound = sound && last - first <= 2; });
     return sound;
 }

@@ -29,7 +29,7 @@ void list_joined_seams(const std::vector<Triangle>& before, const Faces& faces,
     const auto border = border_sides(before);
     std::vector<Side> joined;
     DisjointSets sets(faces.positions.size());
-    for_each_edge(sides_by_edge(faces.triangles), [&](auto first, auto last) {
+    for_each_edge(faces.sides(), [&](auto first, auto last) {
         if (last - first < 2 || !border[at(3 * first->triangle + first->corner)]) return;
         if (first->low == first->high) return;
         joined.push_back(*first);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -98,35 +100,50 @@ void merge_within(const Points3& positions, double tolerance, DisjointSets& sets
         join_along(positions, tolerance, grid, {k / 25 - 2, k / 5 % 5 - 2, k % 5 - 2}, sets);
 }
 
-void merge_equal(const Points3& positions, DisjointSets& sets) {
-    struct Placed {
-        std::array<double, 3> position;
-        Index vertex;
+/// Per vertex, the first of those at its position.
+std::vector<Index> first_of_equal(const Points3& positions) {
+    constexpr Index none = -1;
+    std::size_t slots = 16;
+    while (slots < 2 * positions.size()) slots *= 2;
+    std::vector<Index> table(slots, none);  // open addressing
+    const auto slot_of = [&](const Vec3& p) {
+        std::uint64_t hash = 0;
+        for (const double coordinate : p) {
+            hash ^= std::bit_cast<std::uint64_t>(coordinate + 0.0);  // -0 is 0
+            hash *= 0x9e3779b97f4a7c15u;
+            hash ^= hash >> 32;
+        }
+        return static_cast<std::size_t>(hash) & (slots - 1);
     };
-    std::vector<Placed> placed;
-    placed.reserve(positions.size());
-    for (const Vec3& p : positions)
-        placed.push_back({{p.x(), p.y(), p.z()}, static_cast<Index>(placed.size())});
-    std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
-        return std::tie(a.position, a.vertex) < std::tie(b.position, b.vertex);
-    });
-    for (std::size_t i = 1; i < placed.size(); ++i) {
-        if (placed[i].position == placed[i - 1].position)
-            sets.join(placed[i].vertex, placed[i - 1].vertex);
+    std::vector<Index> first(positions.size());
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        std::size_t slot = slot_of(positions[v]);
+        while (table[slot] != none && positions[at(table[slot])] != positions[v])
+            slot = (slot + 1) & (slots - 1);
+        if (table[slot] == none) table[slot] = static_cast<Index>(v);
+        first[v] = table[slot];
     }
+    return first;
 }
 
 }  // namespace
 
 std::vector<Index> merge_vertices(const Points3& positions, double tolerance_mm) {
-    DisjointSets sets(positions.size());
-    if (tolerance_mm > 0.0) {
-        merge_within(positions, tolerance_mm, sets);
-    } else {
-        merge_equal(positions, sets);
+    std::vector<Index> result = first_of_equal(positions);
+    if (tolerance_mm <= 0.0) return result;
+    std::vector<Index> different;  // a vertex for every position
+    Points3 places;
+    std::vector<Index> number(positions.size());
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        if (result[v] == static_cast<Index>(v)) {
+            number[v] = static_cast<Index>(different.size());
+            different.push_back(result[v]);
+            places.push_back(positions[v]);
+        }
     }
-    std::vector<Index> result(positions.size());
-    for (std::size_t i = 0; i < result.size(); ++i) result[i] = sets.find(static_cast<Index>(i));
+    DisjointSets sets(places.size());
+    merge_within(places, tolerance_mm, sets);
+    for (Index& id : result) id = different[at(sets.find(number[at(id)]))];
     return result;
 }
 

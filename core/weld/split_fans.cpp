@@ -82,7 +82,7 @@ void join_around(std::vector<Side> sides, Partners partners, DisjointSets& fans)
 /// Joins the corners of faces that hang together over an edge. Returns whether an edge has more
 /// than two faces.
 bool join_fans(const Faces& faces, Partners partners, DisjointSets& fans) {
-    const auto sides = sides_by_edge(faces.triangles);
+    const auto& sides = faces.sides();
     std::optional<DisjointSets> patches;
     for_each_edge(sides, [&](auto first, auto last) {
         if (last - first == 2 && first->forward != (first + 1)->forward)
@@ -171,7 +171,7 @@ bool split(Faces& faces, Partners partners) {
 
 bool has_crowded_edge(const Faces& faces) {
     bool crowded = false;
-    for_each_edge(sides_by_edge(faces.triangles),
+    for_each_edge(faces.sides(),
                   [&](auto first, auto last) { crowded = crowded || last - first > 2; });
     return crowded;
 }

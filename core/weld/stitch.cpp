@@ -259,7 +259,7 @@ bool zip_one_pair(Faces& faces, double tolerance, double& furthest, RepairNote& 
 /// What a border vertex lies on, but for the ends of edges.
 Insertions vertices_on_edges(const Faces& faces, double tolerance) {
     std::vector<Side> border;
-    for_each_edge(sides_by_edge(faces.triangles), [&](auto first, auto last) {
+    for_each_edge(faces.sides(), [&](auto first, auto last) {
         if (last - first == 1) border.push_back(*first);
     });
     std::vector<Box3> boxes;

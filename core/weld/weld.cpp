@@ -158,7 +158,7 @@ void close_borders(const WeldOptions& options, HoleRule holes, bool keeps_slits,
         if (*options.stitch_mm > 0.0) stitch_borders(*options.stitch_mm, faces, repairs);
         return;
     }
-    if (is_closed(faces.triangles)) return;
+    if (is_closed(faces.sides())) return;
     const bool closes_holes = holes == HoleRule::automatic;
     const bool only_slits = keeps_slits && count_pieces(faces) < 2;
     if (only_slits && !(closes_holes && has_only_small_holes(faces))) return;
@@ -166,14 +166,14 @@ void close_borders(const WeldOptions& options, HoleRule holes, bool keeps_slits,
     std::vector<Repair> done = repairs;
     stitch_borders(tolerance::near_border * size_of(faces), closed, done);
     if (closes_holes) close_small_holes(closed, done);
-    if (!is_closed(closed.triangles)) return;
+    if (!is_closed(closed.sides())) return;
     faces = std::move(closed);
     repairs = std::move(done);
 }
 
 /// Of pieces that a wider stitch would make one closed model, which one.
 void warn_of_gaps(const WeldOptions& options, const Faces& faces, std::vector<Warning>& warnings) {
-    if (options.stitch_mm || is_closed(faces.triangles)) return;
+    if (options.stitch_mm || is_closed(faces.sides())) return;
     const std::size_t pieces = count_pieces(faces);
     constexpr std::size_t most_pieces = 100;
     if (pieces < 2 || pieces > most_pieces) return;
@@ -182,7 +182,7 @@ void warn_of_gaps(const WeldOptions& options, const Faces& faces, std::vector<Wa
         Faces closed = faces;
         std::vector<Repair> done;
         stitch_borders(wider, closed, done);
-        if (closed.triangles.empty() || !is_closed(closed.triangles) || count_pieces(closed) > 1)
+        if (closed.triangles.empty() || !is_closed(closed.sides()) || count_pieces(closed) > 1)
             continue;
         warnings.push_back({"gaps_left",
                             "the model is " + std::to_string(pieces) +
@@ -194,8 +194,7 @@ void warn_of_gaps(const WeldOptions& options, const Faces& faces, std::vector<Wa
 }
 
 void turn_outward(Faces& faces, std::vector<Repair>& repairs) {
-    if (!is_closed(faces.triangles) || signed_volume(faces.positions, faces.triangles) >= 0.0)
-        return;
+    if (!is_closed(faces.sides()) || signed_volume(faces.positions, faces.triangles) >= 0.0) return;
     for (Triangle& t : faces.triangles) std::swap(t[1], t[2]);
     repairs.push_back({"orientation_reversed",
                        "all faces of the closed model point inward; they were turned",
@@ -263,7 +262,7 @@ void mend(const RawMesh& raw, const WeldOptions& options, HoleRule holes, Faces&
     clean_faces(faces, repairs);
     make_manifold(faces, repairs, sound);
     if (holes == HoleRule::automatic) close_small_holes(faces, repairs);
-    if (parted && !is_closed(faces.triangles)) throw *parted;
+    if (parted && !is_closed(faces.sides())) throw *parted;
     if (options.groups.empty()) drop_inner_shells(faces, repairs);
     turn_outward(faces, repairs);
 }
@@ -296,7 +295,7 @@ SurfaceMesh weld(const RawMesh& raw, const WeldOptions& options, HoleRule holes,
     if (faces.triangles.empty())
         throw Error(ErrorCode::mesh_degenerate, "no face of these groups is left to flatten");
     check_shapes(faces);
-    check_manifold(faces.positions, faces.triangles);
+    check_manifold(faces.positions, faces.triangles, faces.sides());
     result.mesh = build_mesh(faces.positions, faces.triangles);
     result.origins = std::move(faces.origins);
     result.file_triangles = raw.triangles.size();
