@@ -97,7 +97,7 @@ Inspection inspect(std::string_view model, const FlattenOptions& options) {
     found.repairs = read.surface.repairs;
     measure_surface(read.surface.mesh, found);
     try {
-        found.plan = make_plan(read.surface, options.request);
+        found.plan = make_plan(read.surface, options.request, Progress(), options.threads);
         if (const auto& landmarks = found.plan.landmarks)
             found.warnings.insert(found.warnings.end(), landmarks->warnings.begin(),
                                   landmarks->warnings.end());

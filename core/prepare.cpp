@@ -89,7 +89,7 @@ Prepared prepare(SurfaceMesh surface, Plan plan, Progress& progress) {
 
 Prepared prepare(std::string_view model, const FlattenOptions& options, Progress& progress) {
     ReadModel read = read_model(model, options, progress);
-    Plan plan = make_plan(read.surface, options.request, progress);
+    Plan plan = make_plan(read.surface, options.request, progress, options.threads);
     Prepared prepared = prepare(std::move(read.surface), std::move(plan), progress);
     prepared.load_ms = read.load_ms;
     return prepared;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <variant>
 
 #include "core/landmarks/centre_line.h"
 #include "core/landmarks/check_outcome.h"
@@ -14,6 +15,7 @@
 #include "core/landmarks/sole_and_top.h"
 #include "core/locate/surface_search.h"
 #include "core/numerics/geometry.h"
+#include "core/parallel.h"
 #include "core/text.h"
 
 namespace lastflat {
@@ -202,7 +204,8 @@ const Points3& points_of(const CurveSource& found) {
     return std::get<Polyline>(found.form).points;
 }
 
-Landmarks find_landmarks(const SurfaceMesh& surface, const Progress& progress) {
+Landmarks find_landmarks(const SurfaceMesh& surface, const Progress& progress,
+                         std::size_t threads) {
     check_surface(surface);
     auto faces = bare_faces(surface);
     constexpr double coarse = 0.05;  // radians from face to face
@@ -216,14 +219,21 @@ Landmarks find_landmarks(const SurfaceMesh& surface, const Progress& progress) {
     const auto frames = last_frames(faces);
     for (const TopChoice top : {TopChoice::flattest, TopChoice::highest}) {
         if (best && best->topline_confidence >= mostly_sharp) break;
-        for (const LastFrame& frame : frames) {
+        std::vector<std::variant<std::monostate, Landmarks, Error>> tried(frames.size());
+        for_each_index(frames.size(), threads, [&](std::size_t f) {
             progress.check();
             try {
-                Landmarks found = found_with(surface, faces, frame, top, noisy);
-                if (!best || sureness(found) > sureness(*best)) best = std::move(found);
+                tried[f] = found_with(surface, faces, frames[f], top, noisy);
             } catch (const Error& error) {
-                if (!why) why = error;
+                tried[f] = error;
             }
+        });
+        for (auto& outcome : tried) {
+            if (const auto* error = std::get_if<Error>(&outcome); error != nullptr && !why)
+                why = *error;
+            auto* found = std::get_if<Landmarks>(&outcome);
+            if (found != nullptr && (!best || sureness(*found) > sureness(*best)))
+                best = std::move(*found);
         }
     }
     if (!best && !why) fail_search("it has no flat sole");

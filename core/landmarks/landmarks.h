@@ -39,7 +39,8 @@ struct Landmarks {
 /// Throws: Error{region_invalid}, saying what is needed, if the surface is open, in several pieces,
 ///         or has no such sides.
 [[nodiscard]] Landmarks find_landmarks(const SurfaceMesh& surface,
-                                       const Progress& progress = Progress());
+                                       const Progress& progress = Progress(),
+                                       std::size_t threads = 1);
 
 /// Of a curve that was found: all of them are polylines.
 [[nodiscard]] const Points3& points_of(const CurveSource& found);

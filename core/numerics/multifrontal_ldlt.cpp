@@ -18,8 +18,9 @@ using ConstPanel = Eigen::Map<const Eigen::MatrixXd>;
 void MultifrontalLdlt::analyse(const SparseMatrix& lower, const std::vector<UnknownBlock>& blocks) {
     tree_.analyse(lower, blocks);
     work_.assign(tree_.tasks().size(), {});
-    for (std::size_t t = 0; t < work_.size(); ++t) work_[t].stack.resize(tree_.tasks()[t].stack);
-    values_.resize(tree_.panels_size());
+    for (std::size_t t = 0; t < work_.size(); ++t)
+        work_[t].stack.resize(static_cast<Eigen::Index>(tree_.tasks()[t].stack));
+    values_.resize(static_cast<Eigen::Index>(tree_.panels_size()));
     updates_.resize(tree_.fronts().size());
 }
 
@@ -95,7 +96,7 @@ Index MultifrontalLdlt::negative_pivots() const {
     Index negative = 0;
     for (const Front& front : tree_.fronts()) {
         for (std::size_t j = 0; j < front.width(); ++j) {
-            if (values_[front.panel + j * front.height() + j] < 0.0) ++negative;
+            if (values_.data()[front.panel + j * front.height() + j] < 0.0) ++negative;
         }
     }
     return negative;

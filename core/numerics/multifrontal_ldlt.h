@@ -29,14 +29,14 @@ public:
     [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const;
 
     /// Entries of the factor, its pivots included.
-    [[nodiscard]] std::size_t entries() const { return values_.size(); }
+    [[nodiscard]] std::size_t entries() const { return static_cast<std::size_t>(values_.size()); }
 
 private:
     using Front = FrontTree::Front;
     /// What a task needs.
     struct Work {
-        std::vector<double> stack;  ///< updates that their parents have not taken yet
-        std::vector<Index> slots;   ///< of an update's rows in its parent's front
+        Eigen::VectorXd stack;     ///< updates that their parents have not taken yet
+        std::vector<Index> slots;  ///< of an update's rows in its parent's front
         PackBuffers buffers;
     };
 
@@ -49,7 +49,7 @@ private:
     FrontTree tree_;
     std::vector<Work> work_;              ///< per task
     std::vector<const double*> updates_;  ///< per front, while its parent has not taken it
-    std::vector<double> values_;
+    Eigen::VectorXd values_;
 };
 
 }  // namespace lastflat

@@ -52,13 +52,13 @@ MultifrontalLu::MultifrontalLu(const SparseMatrix& matrix,
     const SparseMatrix lower = matrix.triangularView<Eigen::Lower>();
     const SparseMatrix upper = SparseMatrix(matrix.transpose()).triangularView<Eigen::Lower>();
     tree_.analyse(lower, blocks);
-    left_.resize(tree_.panels_size());
+    left_.resize(static_cast<Eigen::Index>(tree_.panels_size()));
     std::size_t size = 0;
     for (const Front& front : tree_.fronts()) {
         right_begin_.push_back(size);
         size += front.rows * front.width();
     }
-    right_.resize(size);
+    right_.resize(static_cast<Eigen::Index>(size));
     updates_.resize(tree_.fronts().size());
     Eigen::MatrixXd schur;
     for (std::size_t f = 0; f < tree_.fronts().size(); ++f) {

@@ -40,7 +40,7 @@ private:
     [[nodiscard]] ConstDense right(const Front& front) const;
 
     FrontTree tree_;
-    std::vector<double> left_, right_;
+    Eigen::VectorXd left_, right_;
     std::vector<std::size_t> right_begin_;  ///< per front
     std::vector<Eigen::MatrixXd> updates_;  ///< per front, while its parent has not taken it
     std::vector<Index> slots_;

@@ -76,11 +76,12 @@ void name_welded_vertices(const SurfaceMesh& surface, Request& request) {
 
 }  // namespace
 
-Plan make_plan(const SurfaceMesh& surface, const Request& request, const Progress& progress) {
+Plan make_plan(const SurfaceMesh& surface, const Request& request, const Progress& progress,
+               std::size_t threads) {
     Plan plan{request};
     if (is_bare(surface, request)) {
         plan.found = request.curves.empty() ? Plan::Found::all : Plan::Found::some;
-        plan.landmarks = find_landmarks(surface, progress);
+        plan.landmarks = find_landmarks(surface, progress, threads);
         warn_where_filled(surface, *plan.landmarks);
         fill_in(surface, *plan.landmarks, plan.request);
     }

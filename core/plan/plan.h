@@ -28,6 +28,6 @@ struct Plan {
 ///
 /// Throws: Error as `find_landmarks`.
 [[nodiscard]] Plan make_plan(const SurfaceMesh& surface, const Request& request,
-                             const Progress& progress = Progress());
+                             const Progress& progress = Progress(), std::size_t threads = 1);
 
 }  // namespace lastflat
