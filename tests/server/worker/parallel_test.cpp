@@ -28,6 +28,17 @@ TEST_SUITE("server/worker/parallel") {
             CHECK(output.svg.bytes == expected.svg.bytes);
         }
     }
+
+    TEST_CASE("a bare last is the same on two threads as on one") {
+        JobInput input{write_model_obj(make_sample_last().mesh), {}};
+        Progress progress;
+        const auto expected = run_job(input, Compression::none, progress);
+        input.options.threads = 2;
+        Progress again;
+        const auto output = run_job(input, Compression::none, again);
+        CHECK(output.svg.bytes == expected.svg.bytes);
+        CHECK(output.obj.bytes == expected.obj.bytes);
+    }
 }
 
 }  // namespace lastflat::server
