@@ -33,12 +33,13 @@ bool factor_front(Block left, Block right) {
         if (!factor_block(pivots)) return false;
         auto below = left.block(end, begin, height - end, size);
         auto beside = left.block(begin, end, size, width - end);
-        auto beyond = right.middleCols(begin, size);
         pivots.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(below);
         pivots.triangularView<Eigen::UnitLower>().solveInPlace(beside);
+        left.block(end, end, height - end, width - end).noalias() -= below * beside;
+        if (right.rows() == 0) continue;  // nothing lies above
+        auto beyond = right.middleCols(begin, size);
         pivots.transpose().triangularView<Eigen::UnitUpper>().solveInPlace<Eigen::OnTheRight>(
             beyond);
-        left.block(end, end, height - end, width - end).noalias() -= below * beside;
         right.rightCols(width - end).noalias() -=
             beyond * left.block(end, begin, width - end, size).transpose();
     }
@@ -69,7 +70,7 @@ MultifrontalLu::MultifrontalLu(const SparseMatrix& matrix,
         if (!factor_front(own, beyond))
             throw Error(ErrorCode::solver_failed, "a linear system is singular");
         const auto rows = static_cast<Eigen::Index>(front.rows);
-        schur.noalias() -= own.bottomRows(rows) * beyond.transpose();
+        if (rows > 0) schur.noalias() -= own.bottomRows(rows) * beyond.transpose();
         for (const Index c : front.children) updates_[at(c)] = {};
         updates_[f] = std::move(schur);
     }
@@ -135,6 +136,7 @@ Eigen::MatrixXd MultifrontalLu::solve(const Eigen::MatrixXd& right_hand_sides) c
         const auto panel = left(front);
         auto own = x.middleRows(front.first, front.columns);
         panel.topRows(front.columns).triangularView<Eigen::UnitLower>().solveInPlace(own);
+        if (front.rows == 0) continue;
         rest.noalias() = panel.bottomRows(static_cast<Eigen::Index>(front.rows)) * own;
         for (std::size_t i = 0; i < front.rows; ++i)
             x.row(tree_.row(front, i)) -= rest.row(static_cast<Eigen::Index>(i));
@@ -144,7 +146,7 @@ Eigen::MatrixXd MultifrontalLu::solve(const Eigen::MatrixXd& right_hand_sides) c
         rest.resize(static_cast<Eigen::Index>(front->rows), x.cols());
         for (std::size_t i = 0; i < front->rows; ++i)
             rest.row(static_cast<Eigen::Index>(i)) = x.row(tree_.row(*front, i));
-        own.noalias() -= right(*front).transpose() * rest;
+        if (front->rows > 0) own.noalias() -= right(*front).transpose() * rest;
         left(*front).topRows(front->columns).triangularView<Eigen::Upper>().solveInPlace(own);
     }
     return x;
