@@ -53,9 +53,9 @@ inline constexpr double nearly_optimal = 1e-3;
 /// step that promises to lower it by less than the second share is idle; one shorter than the third
 /// share of Newton's goes nowhere.
 inline constexpr double merit_round_off = 1e-13, idle_decrease = 1e-15, smallest_step = 1e-10;
-/// A step of Newton's is good enough when its residual is this share of the right side: the step
-/// itself leaves more.
-inline constexpr double newton_residual = 1e-6;
+/// A linear system is solved when the residual is this share of the right side; where an old factor
+/// corrects what is left, and leaves a hundredth at best, the second share will do.
+inline constexpr double refined = 1e-12, roughly_refined = 1e-6;
 /// Two principal stretches nearer to each other than this are equal: the quotient of differences
 /// would be round-off, and is its limit to ten digits.
 inline constexpr double equal_stretches = 1e-6;

@@ -123,7 +123,8 @@ LineSearch search(const Problem& problem, const OptimalitySystem& system, const 
             // Edges that turn by a finite angle come out too long: correct to second order.
             const VectorXd errors =
                 active.exact_residual(problem.rows, values_of(problem.rows, to));
-            to += system.solve(VectorXd::Zero(x.size()), -errors).head(x.size());
+            to +=
+                system.solve(VectorXd::Zero(x.size()), -errors, tolerance::refined).head(x.size());
             accepted = reaches(problem, x, to) && falls(to, t);
         }
         if (accepted) return {std::move(to), t, blocked};
@@ -153,7 +154,7 @@ Step take_step(const Problem& problem, OptimalitySystem& system, const ActiveSet
     system.factor(problem, from.iterate, active.held,
                   momentum.near ? HessianKind::exact : HessianKind::projected, progress);
     const VectorXd errors = active.residual(rows, from.is.values);
-    const VectorXd solution = system.solve(-from.is.gradient, -errors);
+    const VectorXd solution = system.solve(-from.is.gradient, -errors, tolerance::refined);
     VectorXd d = solution.head(x.size());
     const VectorXd wanted = solution.tail(errors.size());
     double slope = from.is.gradient.dot(d), force = 0.0;
@@ -183,7 +184,8 @@ std::optional<State> stepped_to_conditions(const Problem& problem, const Optimal
                                            const ActiveSet& active, const State& from) {
     constexpr double much = 0.1;
     const VectorXd solution =
-        system.solve(-from.is.forces, -active.exact_residual(problem.rows, from.is.values));
+        system.solve(-from.is.forces, -active.exact_residual(problem.rows, from.is.values),
+                     tolerance::roughly_refined);
     Iterate to = from.iterate;
     to.x += solution.head(to.x.size());
     to.multipliers += solution.tail(to.multipliers.size());

@@ -349,20 +349,20 @@ bool OptimalitySystem::factor_exact(const Problem& problem, const Iterate& itera
     return solver_.factor(matrix_, progress, problem.threads);
 }
 
-Eigen::VectorXd OptimalitySystem::solve(const Eigen::VectorXd& top,
-                                        const Eigen::VectorXd& bottom) const {
+Eigen::VectorXd OptimalitySystem::solve(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom,
+                                        double accuracy) const {
     Eigen::VectorXd right(top.size() + bottom.size());
     right << top, bottom;
     Eigen::VectorXd solution = solver_.solve(right);
-    // Refinement takes the multipliers' regularisation out again where a soft row says nearly the
-    // same as exact ones. The next step of Newton's takes out what is left.
+    // Refinement takes the multipliers' regularisation out again: one step as a rule, more where a
+    // soft row says nearly the same as exact ones.
     constexpr int most_steps = 4;
     double before = infinity;
     for (int step = 0; step < most_steps; ++step) {
         Eigen::VectorXd rest = right - matrix_.selfadjointView<Eigen::Lower>() * solution;
         for (const Index row : regularised_) rest[row] -= regularisation_ * solution[row];
         const double norm = rest.norm();
-        if (norm <= tolerance::newton_residual * right.norm() || norm > 0.5 * before) break;
+        if (norm <= accuracy * right.norm() || norm > 0.5 * before) break;
         before = norm;
         solution += solver_.solve(rest);
     }

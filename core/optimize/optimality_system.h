@@ -42,9 +42,10 @@ public:
     [[nodiscard]] bool factor_exact(const Problem& problem, const Iterate& iterate,
                                     const std::vector<Held>& held, const Progress& progress);
 
-    /// Solves for (step, multipliers) given both right-hand sides.
-    [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& top,
-                                        const Eigen::VectorXd& bottom) const;
+    /// Solves for (step, multipliers) given both right-hand sides, up to a residual of this share
+    /// of them.
+    [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom,
+                                        double accuracy) const;
 
     /// What a rounding of the coordinates changes in the gradient, where it was filled last.
     [[nodiscard]] double gradient_round_off() const { return gradient_round_off_; }
