@@ -137,8 +137,13 @@ function onSheet(region, sheet) {
   const [dx, dy] = placement.translation_mm;
   return region.uv_mm.map(([x, upward]) => {
     const y = placement.mirrored ? -upward : upward;
-    return [(cos * x - sin * y + dx) / sheet.width_mm, 1 - (sin * x + cos * y + dy) / sheet.height_mm];
+    return [share((cos * x - sin * y + dx) / sheet.width_mm), 1 - share((sin * x + cos * y + dy) / sheet.height_mm)];
   });
+}
+
+/** @param {number} value What lies on the sheet's edge may be beyond it by a rounding. */
+function share(value) {
+  return Math.min(Math.max(value, 0), 1);
 }
 
 /**
