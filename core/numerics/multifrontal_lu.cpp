@@ -10,7 +10,7 @@ namespace {
 
 using Block = Eigen::Ref<Eigen::MatrixXd>;
 
-/// A small block in place; what is beyond 0 pivots is left to the caller to see.
+/// A small block in place. False if a pivot vanishes.
 bool factor_block(Block block) {
     for (Eigen::Index j = 0; j < block.cols(); ++j) {
         const double pivot = block(j, j);

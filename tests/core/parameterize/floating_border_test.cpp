@@ -12,10 +12,10 @@ namespace {
 
 Chart fan(const Region& region, AngleRule rule = AngleRule::curvature) {
     const std::vector<bool> free(region.border.size(), false);
-    const Dissection order = dissection_of(region.positions, region.half_edges);
+    const Dissection dissection = dissection_of(region.positions, region.half_edges);
     return scaled_to_locks(region,
-                           flatten_floating_border(region, order, mean_value_weights,
-                                                   border_polygon(region, order, free, rule)),
+                           flatten_floating_border(region, dissection, mean_value_weights,
+                                                   border_polygon(region, dissection, free, rule)),
                            {});
 }
 
