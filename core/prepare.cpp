@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "core/append.h"
 #include "core/constrain/check_constraints.h"
 #include "core/constrain/constraint_rows.h"
 #include "core/cut/left_out.h"
@@ -32,10 +33,6 @@ std::vector<NamedFaces> count_groups(const RawMesh& raw) {
     return groups;
 }
 
-void append(std::vector<Warning>& to, const std::vector<Warning>& from) {
-    to.insert(to.end(), from.begin(), from.end());
-}
-
 /// The plan's own, and that the sides of every seam become equally long.
 std::vector<Constraint> constraints_of(const Plan& plan, const std::vector<std::string>& seams) {
     std::vector<Constraint> constraints = plan.request.constraints;
@@ -62,25 +59,34 @@ ReadModel read_model(std::string_view model, const FlattenOptions& options, Prog
     return read;
 }
 
+void ask(Prepared& prepared, Plan plan) {
+    std::vector<Constraint> constraints = constraints_of(plan, prepared.seams);
+    check_constraints(constraints, prepared.curves, prepared.regions);
+    (void)coupled_regions(prepared.regions, constraints);  // refuses before the maps are made
+    check_zones(plan.request.weights.zones, prepared.curves, prepared.regions);
+    prepared.constraints = std::move(constraints);
+    prepared.plan = std::move(plan);
+}
+
 Prepared prepare(SurfaceMesh surface, Plan plan, Progress& progress) {
     progress.reach(Stage::cut, 0.25, 0.3);
     CutSurface cut = cut_surface(surface, plan, progress);
     Prepared prepared;
-    prepared.constraints = constraints_of(plan, cut.seams);
-    check_constraints(prepared.constraints, cut.inserted.curves, cut.regions);
-    (void)coupled_regions(cut.regions, prepared.constraints);  // refuses before the maps are made
-    check_zones(plan.request.weights.zones, cut.inserted.curves, cut.regions);
-    prepared.featherlines = divide_featherlines(surface, cut.regions, plan.request.points);
-    prepared.warnings = std::move(surface.warnings);
-    if (plan.landmarks) append(prepared.warnings, plan.landmarks->warnings);
-    append(prepared.warnings, cut.warnings);
-    if (plan.found == Plan::Found::none && !plan.request.cut.regions.empty()) {
-        std::vector<std::string> cuts = plan.request.cut.cuts;
-        cuts.insert(cuts.end(), cut.seams.begin(), cut.seams.end());
-        append(prepared.warnings, left_out_pieces(surface, cut.inserted.curves, cuts, cut.regions));
-    }
-    prepared.plan = std::move(plan);
+    prepared.curves = std::move(cut.inserted.curves);
+    prepared.seams = std::move(cut.seams);
     prepared.regions = std::move(cut.regions);
+    ask(prepared, std::move(plan));
+    const Request& request = prepared.plan.request;
+    prepared.featherlines = divide_featherlines(surface, prepared.regions, request.points);
+    prepared.warnings = std::move(surface.warnings);
+    if (prepared.plan.landmarks) append(prepared.warnings, prepared.plan.landmarks->warnings);
+    append(prepared.warnings, std::move(cut.warnings));
+    if (prepared.plan.found == Plan::Found::none && !request.cut.regions.empty()) {
+        std::vector<std::string> cuts = request.cut.cuts;
+        append(cuts, prepared.seams);
+        append(prepared.warnings,
+               left_out_pieces(surface, prepared.curves, cuts, prepared.regions));
+    }
     prepared.sources = SourceIds(surface, std::move(cut.inserted.added));
     prepared.smallest_added_angle = cut.inserted.smallest_angle;
     prepared.repairs = std::move(surface.repairs);

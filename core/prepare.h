@@ -31,6 +31,8 @@ struct ReadModel {
 /// Regions, and all that is to be done with them.
 struct Prepared {
     Plan plan;
+    Curves curves;                   ///< in the surface
+    std::vector<std::string> seams;  ///< the plan's, then those that opened holes
     std::vector<Region> regions;
     std::vector<Constraint> constraints;  ///< the plan's, and one for every seam
     std::vector<FeatherlineSide> featherlines;
@@ -45,6 +47,10 @@ struct Prepared {
 /// regions.
 /// Throws: Error, as `cut_surface`, `check_constraints`, `check_zones`, `divide_featherlines`.
 [[nodiscard]] Prepared prepare(SurfaceMesh surface, Plan plan, Progress& progress);
+
+/// Asks something else of the same regions: a plan with the same curves and cuts.
+/// Throws: Error, as `check_constraints`, `check_zones`; nothing is changed then.
+void ask(Prepared& prepared, Plan plan);
 
 /// All of it: `read_model`, `make_plan`, and the above.
 [[nodiscard]] Prepared prepare(std::string_view model, const FlattenOptions& options,

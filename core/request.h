@@ -60,6 +60,7 @@ struct WeldOptions {
     /// `tolerance::near_border` of the model's size, and only if this closes the model; one that is
     /// a single piece only if coincident vertices are joined.
     std::optional<double> stitch_mm;
+    bool operator==(const WeldOptions&) const = default;
 };
 
 /// A vertex, by its id in the file, or a point in space near the surface, mm.
@@ -68,31 +69,38 @@ using Location = std::variant<Index, Vec3>;
 struct PointSource {
     std::string name;
     Location location;
+    bool operator==(const PointSource&) const = default;
 };
 
 /// Vertices of which consecutive ones share an edge.
 struct VertexPath {
     std::vector<Index> vertices;
+    bool operator==(const VertexPath&) const = default;
 };
 /// A line in space near the surface, mm.
 struct Polyline {
     Points3 points;
+    bool operator==(const Polyline&) const = default;
 };
 /// Named points, joined by shortest paths.
 struct ShortestPath {
     std::vector<std::string> through;
+    bool operator==(const ShortestPath&) const = default;
 };
 /// One group of faces: its border; two: where they meet.
 struct GroupBorder {
     std::vector<std::string> groups;
+    bool operator==(const GroupBorder&) const = default;
 };
 /// The border loop at a location.
 struct BorderAt {
     Location location;
+    bool operator==(const BorderAt&) const = default;
 };
 /// A line of the model.
 struct NamedLine {
     std::string line;
+    bool operator==(const NamedLine&) const = default;
 };
 
 using CurveForm =
@@ -101,12 +109,14 @@ using CurveForm =
 struct CurveSource {
     std::string name;
     CurveForm form;
+    bool operator==(const CurveSource&) const = default;
 };
 
 /// Which of the pieces is meant by a region's name.
 struct RegionChoice {
     std::string name;
     std::optional<Location> inside{};  ///< a point's nearest vertex is meant
+    bool operator==(const RegionChoice&) const = default;
 };
 
 enum class HoleRule {
@@ -128,6 +138,7 @@ struct CutOptions {
     std::vector<std::string> seams{};     ///< curves that are cut, and sewn together
     HoleRule holes = HoleRule::automatic;
     FeatureRule features = FeatureRule::automatic;
+    bool operator==(const CutOptions&) const = default;
 };
 
 // The kinds of constraints. A curve that runs through several regions is constrained in each,
@@ -144,6 +155,7 @@ struct Lock {
     std::string curve;
     Keep keep = Keep::edges;
     std::string region{};
+    bool operator==(const Lock&) const = default;
 };
 
 /// A curve's length stays between two shares of its own.
@@ -151,24 +163,28 @@ struct Range {
     std::string curve;
     double min_percent = 0.0, max_percent = 0.0;
     std::string region{};
+    bool operator==(const Range&) const = default;
 };
 
 /// A curve becomes as long as another, in the same region or not.
 struct Match {
     std::string curve, region;
     std::string with_curve, with_region;
+    bool operator==(const Match&) const = default;
 };
 
 /// A curve lies on a line: a vamp cut on the fold.
 struct Straight {
     std::string curve;
     std::string region{};
+    bool operator==(const Straight&) const = default;
 };
 
 /// A region keeps its area, or stays between two shares of it.
 struct TotalArea {
     double min_percent = 0.0, max_percent = 0.0;
     std::string region{};
+    bool operator==(const TotalArea&) const = default;
 };
 
 /// A point lies at a given point of the plane.
@@ -176,17 +192,20 @@ struct Pin {
     Index vertex;  ///< id of the file
     Vec2 at;       ///< mm
     std::string region{};
+    bool operator==(const Pin&) const = default;
 };
 
 /// Both sides of a cut become equally long, stretch by stretch.
 struct Seam {
     std::string curve;
+    bool operator==(const Seam&) const = default;
 };
 
 struct Constraint {
     std::variant<Lock, Range, Match, Straight, TotalArea, Pin, Seam> demand;
     int priority = 0;                   ///< the least important gives way first
     std::vector<std::string> option{};  ///< where it stands in the request
+    bool operator==(const Constraint&) const = default;
 };
 
 enum class OnConflict {
@@ -202,6 +221,7 @@ struct Zone {
     std::vector<Index> vertices{};  ///< ids of the file
     double within_mm = 0.0;         ///< in a straight line, to the middle of a triangle
     double weight = 1.0;            ///< distortion here counts so much
+    bool operator==(const Zone&) const = default;
 };
 
 /// Where distortion matters more, and of which sign.
@@ -212,11 +232,13 @@ struct DistortionWeights {
     double stretch = 1.0, compression = 1.0;
 
     [[nodiscard]] bool even() const { return stretch == 1.0 && compression == 1.0; }
+    bool operator==(const DistortionWeights&) const = default;
 };
 
 /// What the leather will bear.
 struct MaterialLimits {
     double stretch_max_percent, compress_max_percent;
+    bool operator==(const MaterialLimits&) const = default;
 };
 
 enum class MethodName {
@@ -250,6 +272,7 @@ struct MethodOptions {
     MethodName name = MethodName::isometric;
     BorderShape border = BorderShape::circle;  ///< of the methods from tutte to mean_value
     AngleRule angles = AngleRule::curvature;   ///< of the border's polygon
+    bool operator==(const MethodOptions&) const = default;
 };
 
 /// What the colour of the drawing shows of the leather when it is lasted.
@@ -275,6 +298,7 @@ struct Request {
     Shading shading = Shading::area;  ///< of the drawing
     bool draw_fan = false;            ///< the geodesic fan in the drawing
     bool include_fan = false;         ///< the geodesic fan in the result
+    bool operator==(const Request&) const = default;
 };
 
 /// Whether the result says what the geodesic fan is: the method of that name always does.

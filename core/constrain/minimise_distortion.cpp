@@ -46,20 +46,26 @@ Eigen::VectorXd moved_to_pins(const Problem& problem, const Eigen::VectorXd& x) 
 }  // namespace
 
 Minimum minimise_distortion(const Problem& approach, const Problem& problem,
-                            const std::vector<Chart>& starts, const Progress& progress) {
+                            const std::vector<Chart>& starts, OptimalitySystem& system,
+                            const Progress& progress) {
     Eigen::VectorXd x = scaled_starts(problem.domain, starts);
     Minimum near;
     if (problem.distortion.value(x) > near_isometry * problem.distortion.total_area()) {
-        OptimalitySystem system;
+        OptimalitySystem without_rows;
         near = minimise(approach, Iterate::at(x, approach), {near_isometry, approach_decrease},
-                        system, progress);
+                        without_rows, progress);
         x = problem.domain.coordinates(near.charts);
     }
-    OptimalitySystem system;
     Minimum minimum =
         minimise(problem, Iterate::at(moved_to_pins(problem, x), problem), {}, system, progress);
     minimum.iterations += near.iterations;
     return minimum;
+}
+
+Minimum minimise_distortion_again(const Problem& problem, const Iterate& from,
+                                  OptimalitySystem& system, const Progress& progress) {
+    return minimise(problem, {moved_to_pins(problem, from.x), from.multipliers}, {}, system,
+                    progress);
 }
 
 }  // namespace lastflat

@@ -12,11 +12,17 @@ namespace lastflat {
 /// In:     `approach`: the problem without its rows and without the terms that belong to them;
 ///         starts without flipped triangles; with terms that keep borders from crossing, none may
 ///         cross.
-/// Out:    as `minimise`; its steps and those of the approach are counted together. From any start
+/// Out:    `system`: a new one, left as it was at the end; the rest as `minimise`; its steps and
+/// those of the approach are counted together. From any start
 ///         the same optimum is reached, as long as no border comes into contact.
 /// Throws: Error{method_failed} if a start is folded; others as `minimise`.
 [[nodiscard]] Minimum minimise_distortion(const Problem& approach, const Problem& problem,
                                           const std::vector<Chart>& starts,
-                                          const Progress& progress);
+                                          OptimalitySystem& system, const Progress& progress);
+
+/// The same from where a search before ended, for a problem that has changed since; its charts are
+/// moved to their pins. In and out, `system`: as `minimise`.
+[[nodiscard]] Minimum minimise_distortion_again(const Problem& problem, const Iterate& from,
+                                                OptimalitySystem& system, const Progress& progress);
 
 }  // namespace lastflat

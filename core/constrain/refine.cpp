@@ -6,9 +6,10 @@
 namespace lastflat {
 namespace {
 
-ConstrainedChart isometric(const Domain& domain, const std::vector<Chart>& starts,
-                           const Request& request, const std::vector<Constraint>& constraints,
-                           std::size_t threads, const Progress& progress) {
+/// Calls with what `isometric` demands of a domain.
+template <class Call>
+auto with_demands(const Domain& domain, const Request& request,
+                  const std::vector<Constraint>& constraints, const Call& call) {
     const DistortionWeights& asked = request.weights;
     std::vector<std::vector<double>> weights;
     for (const Region* region : domain.regions)
@@ -17,9 +18,7 @@ ConstrainedChart isometric(const Domain& domain, const std::vector<Chart>& start
     const WeightedDirichlet uneven(asked.stretch, asked.compression);
     const IsotropicEnergy& energy =
         asked.even() ? static_cast<const IsotropicEnergy&>(even) : uneven;
-    return least_distortion(domain, starts,
-                            {constraints, energy, std::move(weights), request.on_conflict, true},
-                            threads, progress);
+    return call(Demands{constraints, energy, std::move(weights), request.on_conflict, true});
 }
 
 ConstrainedChart least_energy(const Domain& domain, const std::vector<Chart>& starts,
@@ -43,10 +42,12 @@ ConstrainedChart scaled(const Domain& domain, ConstrainedChart result,
 
 ConstrainedChart refine(const Domain& domain, std::vector<Chart> starts, const Request& request,
                         const std::vector<Constraint>& constraints, std::size_t threads,
-                        const Progress& progress) {
+                        const Progress& progress, Warmth* left) {
     switch (request.method.name) {
         case MethodName::isometric:
-            return isometric(domain, starts, request, constraints, threads, progress);
+            return with_demands(domain, request, constraints, [&](const Demands& demands) {
+                return least_distortion(domain, starts, demands, threads, progress, left);
+            });
         case MethodName::green_lagrange:
             return least_energy(domain, starts, GreenLagrange(), threads, progress);
         case MethodName::mips:
@@ -64,6 +65,16 @@ ConstrainedChart refine(const Domain& domain, std::vector<Chart> starts, const R
     ConstrainedChart start;
     start.minimum.charts = std::move(starts);
     return scaled(domain, std::move(start), constraints);
+}
+
+std::optional<ConstrainedChart> refine_again(const Domain& domain, const Request& request,
+                                             const std::vector<Constraint>& constraints,
+                                             std::size_t threads, const Progress& progress,
+                                             Warmth& warmth) {
+    if (request.method.name != MethodName::isometric) return std::nullopt;
+    return with_demands(domain, request, constraints, [&](const Demands& demands) {
+        return least_distortion_again(domain, demands, threads, progress, warmth);
+    });
 }
 
 }  // namespace lastflat

@@ -46,12 +46,13 @@ double total_area(const Domain& domain) {
 class Resolver {
 public:
     Resolver(const Domain& domain, const std::vector<Chart>& starts, const Demands& demands,
-             std::size_t threads, const Progress& progress)
+             std::size_t threads, const Progress& progress, Warmth* left)
         : domain_(domain),
           starts_(starts),
           demands_(demands),
           constraints_(demands.constraints),
           progress_(progress),
+          left_(left),
           rows_(constraint_rows(domain, constraints_)),
           distortion_(domain, demands.energy, demands.weights),
           wires_(domain, locked_wires(domain, constraints_)),
@@ -82,6 +83,22 @@ public:
             result.minimum = solve(without_soft());
         }
         if (!result.relaxed.empty()) pull_back(result.minimum);
+        if (left_ != nullptr && !(result.relaxed.empty() && result.minimum.converged)) *left_ = {};
+        return result;
+    }
+
+    std::optional<ConstrainedChart> run_again() {
+        if (open_loop(domain_, kept_rows(), constraints_)) return std::nullopt;
+        const Problem problem = problem_of(role_);
+        Iterate iterate{left_->iterate.x, carried_multipliers(*left_, problem.rows)};
+        OptimalitySystem other;
+        OptimalitySystem& system = are_alike(left_->rows, problem.rows) ? left_->system : other;
+        ConstrainedChart result{
+            minimise_distortion_again(problem, iterate, system, progress_), {}, {}};
+        if (!kept(result.minimum) || !result.minimum.converged) return std::nullopt;
+        *left_ = {problem.rows,
+                  {domain_.coordinates(result.minimum.charts), result.minimum.multipliers},
+                  std::move(system)};
         return result;
     }
 
@@ -102,6 +119,18 @@ private:
 
     [[nodiscard]] Minimum solve_from(const std::vector<Chart>& starts,
                                      const std::vector<Role>& roles) const {
+        const Problem problem = problem_of(roles);
+        OptimalitySystem system;
+        Minimum minimum = minimise_distortion(approach_, problem, starts, system, progress_);
+        steps_ += minimum.iterations;
+        if (left_ != nullptr)
+            *left_ = {problem.rows,
+                      {domain_.coordinates(minimum.charts), minimum.multipliers},
+                      std::move(system)};
+        return minimum;
+    }
+
+    [[nodiscard]] Problem problem_of(const std::vector<Role>& roles) const {
         Problem problem = approach_;
         problem.terms.push_back(&wires_);
         for (const std::size_t k : chosen_rows(roles)) {
@@ -109,9 +138,7 @@ private:
             if (roles[rows_[k].constraint] == Role::soft)
                 problem.rows.back().compliance = compliance_[k];
         }
-        Minimum minimum = minimise_distortion(approach_, problem, starts, progress_);
-        steps_ += minimum.iterations;
-        return minimum;
+        return problem;
     }
 
     /// What the roles leave to be solved: exact rows without repeats, and the soft ones.
@@ -257,6 +284,7 @@ private:
     const Demands& demands_;
     const std::vector<Constraint>& constraints_;
     const Progress& progress_;
+    Warmth* const left_;  ///< for the next solve; null: nobody wants it
     const std::vector<ConstraintRow> rows_;
     const Distortion distortion_;
     const WireStiffness wires_;
@@ -279,10 +307,18 @@ Warning not_converged(const Domain& domain, const Minimum& minimum) {
 
 ConstrainedChart least_distortion(const Domain& domain, const std::vector<Chart>& starts,
                                   const Demands& demands, std::size_t threads,
-                                  const Progress& progress) {
-    ConstrainedChart result = Resolver(domain, starts, demands, threads, progress).run();
+                                  const Progress& progress, Warmth* left) {
+    ConstrainedChart result = Resolver(domain, starts, demands, threads, progress, left).run();
     if (!result.minimum.converged) result.warnings.push_back(not_converged(domain, result.minimum));
     return result;
+}
+
+std::optional<ConstrainedChart> least_distortion_again(const Domain& domain, const Demands& demands,
+                                                       std::size_t threads,
+                                                       const Progress& progress, Warmth& warmth) {
+    if (warmth.is_empty()) return std::nullopt;
+    const std::vector<Chart> no_starts;
+    return Resolver(domain, no_starts, demands, threads, progress, &warmth).run_again();
 }
 
 }  // namespace lastflat

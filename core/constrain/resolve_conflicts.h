@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/constrain/minimise_distortion.h"
+#include "core/constrain/warmth.h"
 #include "core/error.h"
 #include "core/request.h"
 
@@ -33,9 +34,22 @@ struct Demands {
 ///         they contradict each other (stuck in contact); Error{constraints_infeasible} with the
 ///         smallest set found of constraints that fight: no member of it can be left out; how far
 ///         each is off at the best compromise, and where. Others as `minimise_distortion`.
+/// `left`: if not null, takes what stays warm; empty if constraints gave way or the minimum was not
+///         reached.
 [[nodiscard]] ConstrainedChart least_distortion(const Domain& domain,
                                                 const std::vector<Chart>& starts,
                                                 const Demands& demands, std::size_t threads,
-                                                const Progress& progress);
+                                                const Progress& progress, Warmth* left = nullptr);
+
+/// The same from where a solve of the same domain ended, for demands that may be others. Nothing if
+/// that does not lead to an optimum that keeps every constraint; the warmth is then as good as it
+/// was.
+/// Where no border comes into contact it is the optimum that `least_distortion` finds.
+/// Throws: Error{solver_failed}; Error{canceled}, likewise.
+[[nodiscard]] std::optional<ConstrainedChart> least_distortion_again(const Domain& domain,
+                                                                     const Demands& demands,
+                                                                     std::size_t threads,
+                                                                     const Progress& progress,
+                                                                     Warmth& warmth);
 
 }  // namespace lastflat

@@ -93,9 +93,12 @@ bool is_closed(const Points3& line) {
 /// Finds one curve after the other.
 class Search {
 public:
-    Search(const SurfaceMesh& surface, const std::vector<PointSource>& points)
-        : surface_(surface), points_(points) {}
+    /// `search`: of the surface, if there is one already.
+    Search(const SurfaceMesh& surface, const std::vector<PointSource>& points,
+           std::vector<SurfaceLine> before = {}, const SurfaceSearch* search = nullptr)
+        : surface_(surface), points_(points), known_(search), found_(std::move(before)) {}
 
+    /// What was found before, and these.
     [[nodiscard]] std::vector<SurfaceLine> run(const std::vector<CurveSource>& sources) {
         for (const CurveSource& source : sources) {
             snap_ = tolerance::geodesic_snap;
@@ -211,8 +214,8 @@ private:
     }
 
     const SurfaceSearch& search() {
-        if (!search_) search_.emplace(surface_);
-        return *search_;
+        if (known_ == nullptr) known_ = &made_.emplace(surface_);
+        return *known_;
     }
 
     template <class Fail>
@@ -287,7 +290,8 @@ private:
 
     const SurfaceMesh& surface_;
     const std::vector<PointSource>& points_;
-    std::optional<SurfaceSearch> search_;
+    std::optional<SurfaceSearch> made_;
+    const SurfaceSearch* known_;
     std::vector<SurfaceLine> found_;
     double snap_ = 0.0;                                   ///< of the line at hand
     bool starts_on_line_ = false, ends_on_line_ = false;  ///< likewise
@@ -306,6 +310,15 @@ std::vector<SurfaceLine> locate_curves(const SurfaceMesh& surface,
                                        const std::vector<CurveSource>& sources,
                                        const std::vector<PointSource>& points) {
     return Search(surface, points).run(sources);
+}
+
+std::vector<SurfaceLine> locate_more_curves(const SurfaceSearch& search, const SurfaceMesh& surface,
+                                            const std::vector<SurfaceLine>& before,
+                                            const std::vector<CurveSource>& sources,
+                                            const std::vector<PointSource>& points) {
+    auto lines = Search(surface, points, before, &search).run(sources);
+    lines.erase(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(before.size()));
+    return lines;
 }
 
 }  // namespace lastflat

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/locate/surface_point.h"
+#include "core/locate/surface_search.h"
 #include "core/request.h"
 
 namespace lastflat {
@@ -37,5 +37,13 @@ struct SurfaceLine {
 [[nodiscard]] std::vector<SurfaceLine> locate_curves(const SurfaceMesh& surface,
                                                      const std::vector<CurveSource>& sources,
                                                      const std::vector<PointSource>& points = {});
+
+/// The same beside lines that were located before, on which the new ones may end; only those are
+/// returned. `search`: of this surface.
+[[nodiscard]] std::vector<SurfaceLine> locate_more_curves(const SurfaceSearch& search,
+                                                          const SurfaceMesh& surface,
+                                                          const std::vector<SurfaceLine>& before,
+                                                          const std::vector<CurveSource>& sources,
+                                                          const std::vector<PointSource>& points);
 
 }  // namespace lastflat

@@ -24,25 +24,32 @@ typename Points::value_type mean(const FlatPiece& piece, const Points& positions
 
 }  // namespace
 
-PatternMap::PatternMap(const std::vector<FlatPiece>& pieces) {
-    for (const FlatPiece& piece : pieces) {
-        pieces_.push_back({piece, TriangleSearch(Triangulation{piece.positions, piece.triangles}),
-                           TriangleSearch(flat(piece))});
+PatternMap::PatternMap(std::vector<FlatPiece> pieces) {
+    for (FlatPiece& piece : pieces) {
+        TriangleSearch last(Triangulation{piece.positions, piece.triangles});
+        pieces_.push_back({std::move(piece), std::move(last)});
     }
 }
 
-const PatternMap::Searched& PatternMap::searched(const std::string& piece) const {
+void PatternMap::move_to(const std::vector<Points2>& charts) {
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        pieces_[i].piece.uv = charts[i];
+        pieces_[i].pattern.reset();
+    }
+}
+
+std::size_t PatternMap::index_of(const std::string& piece) const {
     const auto found = std::find_if(pieces_.begin(), pieces_.end(), [&](const Searched& searched) {
         return searched.piece.name == piece;
     });
     if (found == pieces_.end())
         throw Error(ErrorCode::region_invalid, "the pattern has no piece '" + piece + "'");
-    return *found;
+    return static_cast<std::size_t>(found - pieces_.begin());
 }
 
 PatternMap::OnPattern PatternMap::to_pattern(const Vec3& position,
                                              const std::optional<std::string>& piece) const {
-    const Searched* best = piece ? &searched(*piece) : nullptr;
+    const Searched* best = piece ? &pieces_[index_of(*piece)] : nullptr;
     TriangleSearch::Nearest nearest;
     if (best != nullptr) nearest = best->last.nearest(position);
     for (std::size_t i = 0; !piece && i < pieces_.size(); ++i) {
@@ -56,9 +63,10 @@ PatternMap::OnPattern PatternMap::to_pattern(const Vec3& position,
     return {best->piece.name, mean(best->piece, best->piece.uv, nearest), nearest.distance};
 }
 
-PatternMap::OnLast PatternMap::to_last(const std::string& piece, const Vec2& uv) const {
-    const Searched& of = searched(piece);
-    const auto nearest = of.pattern.nearest({uv.x(), uv.y(), 0.0});
+PatternMap::OnLast PatternMap::to_last(const std::string& piece, const Vec2& uv) {
+    Searched& of = pieces_[index_of(piece)];
+    if (!of.pattern) of.pattern = std::make_unique<const TriangleSearch>(flat(of.piece));
+    const auto nearest = of.pattern->nearest({uv.x(), uv.y(), 0.0});
     if (nearest.triangle < 0)
         throw Error(ErrorCode::region_invalid, "the piece '" + piece + "' has no triangle");
     return {mean(of.piece, of.piece.positions, nearest), nearest.distance};

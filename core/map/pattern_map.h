@@ -1,6 +1,7 @@
 // From the last to the pattern and back, point by point.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,7 +28,10 @@ struct FlatPiece {
 ///        began.
 class PatternMap {
 public:
-    explicit PatternMap(const std::vector<FlatPiece>& pieces);
+    explicit PatternMap(std::vector<FlatPiece> pieces);
+
+    /// The same triangles, flat somewhere else: per piece its `uv`.
+    void move_to(const std::vector<Points2>& charts);
 
     struct OnPattern {
         std::string piece;
@@ -44,14 +48,15 @@ public:
         double distance;  ///< of the point from the piece, mm; 0 inside
     };
     /// Throws: Error{region_invalid} if there is no such piece.
-    [[nodiscard]] OnLast to_last(const std::string& piece, const Vec2& uv) const;
+    [[nodiscard]] OnLast to_last(const std::string& piece, const Vec2& uv);
 
 private:
     struct Searched {
         FlatPiece piece;
-        TriangleSearch last, pattern;
+        TriangleSearch last;
+        std::unique_ptr<const TriangleSearch> pattern{};  ///< made when it is needed
     };
-    [[nodiscard]] const Searched& searched(const std::string& piece) const;
+    [[nodiscard]] std::size_t index_of(const std::string& piece) const;
 
     std::vector<Searched> pieces_;
 };

@@ -9,11 +9,6 @@
 #include "core/parallel.h"
 
 namespace lastflat {
-namespace {
-
-using ConstPanel = Eigen::Map<const Eigen::MatrixXd>;
-
-}  // namespace
 
 void MultifrontalLdlt::analyse(const SparseMatrix& lower, const std::vector<UnknownBlock>& blocks) {
     tree_.analyse(lower, blocks);
@@ -102,40 +97,76 @@ Index MultifrontalLdlt::negative_pivots() const {
     return negative;
 }
 
-Eigen::VectorXd MultifrontalLdlt::solve(const Eigen::VectorXd& right_hand_side) const {
-    Eigen::VectorXd x(right_hand_side.size()), rest;
+Eigen::VectorXd MultifrontalLdlt::solve(const Eigen::VectorXd& right_hand_side,
+                                        std::size_t threads) const {
+    Eigen::VectorXd x(right_hand_side.size());
     for (std::size_t i = 0; i < tree_.positions().size(); ++i)
         x[tree_.positions()[i]] = right_hand_side[static_cast<Eigen::Index>(i)];
-    const auto panel_of = [&](const Front& front) {
-        return ConstPanel(values_.data() + front.panel, static_cast<Eigen::Index>(front.height()),
-                          front.columns);
-    };
-    for (const Front& front : tree_.fronts()) {
-        const auto panel = panel_of(front);
-        auto own = x.segment(front.first, front.columns);
-        panel.topRows(front.columns).triangularView<Eigen::UnitLower>().solveInPlace(own);
-        rest.noalias() = panel.bottomRows(static_cast<Eigen::Index>(front.rows)) * own;
-        for (std::size_t i = 0; i < front.rows; ++i)
-            x[tree_.row(front, i)] -= rest[static_cast<Eigen::Index>(i)];
-        own.array() /= panel.diagonal().array();
+    const std::size_t above = work_.size() - 1;
+    std::vector<Eigen::VectorXd> passed_on(above);
+    for_each_index(above, threads, [&](std::size_t t) { passed_on[t] = go_up(t, x); });
+    for (std::size_t t = 0; t < above; ++t) {
+        const Front& top = tree_.front(tree_.tasks()[t].fronts.back());
+        for (std::size_t i = 0; i < top.rows; ++i)
+            x[tree_.row(top, i)] -= passed_on[t][static_cast<Eigen::Index>(i)];
     }
-    for (auto front = tree_.fronts().rbegin(); front != tree_.fronts().rend(); ++front) {
-        const auto panel = panel_of(*front);
-        auto own = x.segment(front->first, front->columns);
-        rest.resize(static_cast<Eigen::Index>(front->rows));
-        for (std::size_t i = 0; i < front->rows; ++i)
-            rest[static_cast<Eigen::Index>(i)] = x[tree_.row(*front, i)];
-        own.noalias() -=
-            panel.bottomRows(static_cast<Eigen::Index>(front->rows)).transpose() * rest;
-        panel.topRows(front->columns)
-            .triangularView<Eigen::UnitLower>()
-            .transpose()
-            .solveInPlace(own);
-    }
+    (void)go_up(above, x);
+    go_down(above, x);
+    for_each_index(above, threads, [&](std::size_t t) { go_down(t, x); });
     Eigen::VectorXd result(x.size());
     for (std::size_t i = 0; i < tree_.positions().size(); ++i)
         result[static_cast<Eigen::Index>(i)] = x[tree_.positions()[i]];
     return result;
+}
+
+MultifrontalLdlt::ConstPanel MultifrontalLdlt::panel_of(const Front& front) const {
+    return {values_.data() + front.panel, static_cast<Eigen::Index>(front.height()), front.columns};
+}
+
+/// Eliminates a task's unknowns. Returns what it takes from the rows of its last front, which are
+/// those of other tasks.
+Eigen::VectorXd MultifrontalLdlt::go_up(std::size_t t, Eigen::VectorXd& x) const {
+    const std::vector<Index>& fronts = tree_.tasks()[t].fronts;
+    Eigen::VectorXd passed_on, rest;
+    if (fronts.empty()) return passed_on;
+    const Front& top = tree_.front(fronts.back());
+    const Index end = top.first + top.columns;
+    passed_on.setZero(static_cast<Eigen::Index>(top.rows));
+    for (const Index f : fronts) {
+        const Front& front = tree_.front(f);
+        const auto panel = panel_of(front);
+        auto own = x.segment(front.first, front.columns);
+        panel.topRows(front.columns).triangularView<Eigen::UnitLower>().solveInPlace(own);
+        rest.noalias() = panel.bottomRows(static_cast<Eigen::Index>(front.rows)) * own;
+        own.array() /= panel.diagonal().array();
+        std::size_t i = 0, beyond = 0;
+        for (; i < front.rows && tree_.row(front, i) < end; ++i)
+            x[tree_.row(front, i)] -= rest[static_cast<Eigen::Index>(i)];
+        for (; i < front.rows; ++i) {
+            while (tree_.row(top, beyond) != tree_.row(front, i)) ++beyond;
+            passed_on[static_cast<Eigen::Index>(beyond)] += rest[static_cast<Eigen::Index>(i)];
+        }
+    }
+    return passed_on;
+}
+
+/// Puts in what is known above.
+void MultifrontalLdlt::go_down(std::size_t t, Eigen::VectorXd& x) const {
+    const std::vector<Index>& fronts = tree_.tasks()[t].fronts;
+    Eigen::VectorXd rest;
+    for (auto f = fronts.rbegin(); f != fronts.rend(); ++f) {
+        const Front& front = tree_.front(*f);
+        const auto panel = panel_of(front);
+        auto own = x.segment(front.first, front.columns);
+        rest.resize(static_cast<Eigen::Index>(front.rows));
+        for (std::size_t i = 0; i < front.rows; ++i)
+            rest[static_cast<Eigen::Index>(i)] = x[tree_.row(front, i)];
+        own.noalias() -= panel.bottomRows(static_cast<Eigen::Index>(front.rows)).transpose() * rest;
+        panel.topRows(front.columns)
+            .triangularView<Eigen::UnitLower>()
+            .transpose()
+            .solveInPlace(own);
+    }
 }
 
 }  // namespace lastflat

@@ -26,13 +26,16 @@ public:
     /// How many eigenvalues of the factored matrix are negative (Sylvester's law of inertia).
     [[nodiscard]] Index negative_pivots() const;
 
-    [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const;
+    /// The answer does not depend on `threads`.
+    [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side,
+                                        std::size_t threads = 1) const;
 
     /// Entries of the factor, its pivots included.
     [[nodiscard]] std::size_t entries() const { return static_cast<std::size_t>(values_.size()); }
 
 private:
     using Front = FrontTree::Front;
+    using ConstPanel = Eigen::Map<const Eigen::MatrixXd>;
     /// What a task needs.
     struct Work {
         Eigen::VectorXd stack;     ///< updates that their parents have not taken yet
@@ -45,6 +48,9 @@ private:
                   std::vector<Index>& slots);
     void add_update(const Front& child, const double* update, const Front& front, double* schur,
                     std::vector<Index>& slots);
+    [[nodiscard]] ConstPanel panel_of(const Front& front) const;
+    [[nodiscard]] Eigen::VectorXd go_up(std::size_t task, Eigen::VectorXd& x) const;
+    void go_down(std::size_t task, Eigen::VectorXd& x) const;
 
     FrontTree tree_;
     std::vector<Work> work_;              ///< per task

@@ -19,8 +19,21 @@ Held broken_bound(const Row& row, double value) {
 
 }  // namespace
 
-ActiveSet::ActiveSet(const std::vector<Row>& rows) : releases(rows.size(), 0) {
-    for (const Row& row : rows) held.push_back(row.is_equation() ? Held::by_most : Held::not_held);
+ActiveSet::ActiveSet(const std::vector<Row>& rows, const Eigen::VectorXd& values,
+                     Eigen::VectorXd& multipliers)
+    : releases(rows.size(), 0) {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const Row& row = rows[k];
+        const auto i = static_cast<Eigen::Index>(k);
+        const double near = tolerance::locked_length * row.reference;
+        Held now = Held::not_held;
+        if (row.is_equation() || (multipliers[i] > 0.0 && values[i] >= row.most - near))
+            now = Held::by_most;
+        else if (multipliers[i] < 0.0 && values[i] <= row.least + near)
+            now = Held::by_least;
+        if (now == Held::not_held) multipliers[i] = 0.0;
+        held.push_back(now);
+    }
 }
 
 bool ActiveSet::update(const std::vector<Row>& rows, const Eigen::VectorXd& values,

@@ -17,8 +17,10 @@ struct ActiveSet {
     /// A row pulls the wrong way and is not let go any more.
     bool undecided = false;
 
-    /// Equations are held, inequalities are not.
-    explicit ActiveSet(const std::vector<Row>& rows);
+    /// Equations are held; inequalities by the bound that their multiplier says, if they are there
+    /// or beyond. The multiplier of those that are not held becomes zero.
+    ActiveSet(const std::vector<Row>& rows, const Eigen::VectorXd& values,
+              Eigen::VectorXd& multipliers);
 
     /// Holds what is violated, lets go what pulls the wrong way; its multiplier becomes zero.
     /// `values`: of the rows. Returns whether anything changed.

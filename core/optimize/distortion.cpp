@@ -54,17 +54,20 @@ struct StretchDirections {
     Vector6 larger, smaller, twist, flip;
 };
 
+Vec2 rotated(const StretchFrame& frame, const Vec2& b) {
+    return {frame.rotation.x() * b.x() - frame.rotation.y() * b.y(),
+            frame.rotation.y() * b.x() + frame.rotation.x() * b.y()};
+}
+
+Vec2 reflected(const StretchFrame& frame, const Vec2& b) {
+    return {frame.reflection.x() * b.x() + frame.reflection.y() * b.y(),
+            frame.reflection.y() * b.x() - frame.reflection.x() * b.y()};
+}
+
 StretchDirections stretch_directions(const StretchFrame& frame, const Eigen::Matrix2d& B) {
     const Vec2 b1 = B.row(0), b2 = B.row(1);
-    const auto rotated = [&](const Vec2& b) {
-        return Vec2(frame.rotation.x() * b.x() - frame.rotation.y() * b.y(),
-                    frame.rotation.y() * b.x() + frame.rotation.x() * b.y());
-    };
-    const auto reflected = [&](const Vec2& b) {
-        return Vec2(frame.reflection.x() * b.x() + frame.reflection.y() * b.y(),
-                    frame.reflection.y() * b.x() - frame.reflection.x() * b.y());
-    };
-    const Vec2 A1 = rotated(b1), A2 = rotated(b2), R1 = reflected(b1), R2 = reflected(b2);
+    const Vec2 A1 = rotated(frame, b1), A2 = rotated(frame, b2);
+    const Vec2 R1 = reflected(frame, b1), R2 = reflected(frame, b2);
     const double h = std::sqrt(0.5);
     return {along(0.5 * (A1 + R1), 0.5 * (A2 + R2)), along(0.5 * (A1 - R1), 0.5 * (A2 - R2)),
             along(h * quarter_turn(A1), h * quarter_turn(A2)),
@@ -174,12 +177,17 @@ void Distortion::add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradien
     for (const Element& element : elements_) {
         const StretchFrame frame = stretch_frame(gradient_of(element, x));
         const EnergyDerivatives e = energy_.derivatives(frame.larger(), frame.smaller());
-        const StretchDirections d = stretch_directions(frame, element.rest_inverse);
-        const Vector6 sum = element.area * (e.d1 * d.larger + e.d2 * d.smaller);
-        for (Eigen::Index i = 0; i < 3; ++i) {
-            gradient.segment<2>(2 * element.vertices[static_cast<std::size_t>(i)]) +=
-                sum.segment<2>(2 * i);
-        }
+        // Of the stretches along the two rows of B, see `stretch_directions`.
+        const double turned = 0.5 * element.area * (e.d1 + e.d2);
+        const double mirrored = 0.5 * element.area * (e.d1 - e.d2);
+        const auto force = [&](const Vec2& b) {
+            return Vec2(turned * rotated(frame, b) + mirrored * reflected(frame, b));
+        };
+        const Vec2 first = force(element.rest_inverse.row(0));
+        const Vec2 second = force(element.rest_inverse.row(1));
+        gradient.segment<2>(2 * element.vertices[0]) -= first + second;
+        gradient.segment<2>(2 * element.vertices[1]) += first;
+        gradient.segment<2>(2 * element.vertices[2]) += second;
     }
 }
 

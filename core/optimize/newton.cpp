@@ -178,22 +178,38 @@ Step take_step(const Problem& problem, OptimalitySystem& system, const ActiveSet
             line.blocked};
 }
 
-/// One full step with the last factor, if it brings the conditions nearer by much. It corrects what
+/// One full step with the last factor, if it leaves less than this share of the distance to the
+/// conditions. It corrects what
 /// is left of the Lagrangian's gradient, so that an old matrix does not tilt the multipliers.
 std::optional<State> stepped_to_conditions(const Problem& problem, const OptimalitySystem& system,
-                                           const ActiveSet& active, const State& from) {
-    constexpr double much = 0.1;
+                                           const ActiveSet& active, const State& from,
+                                           double much) {
     const VectorXd solution =
         system.solve(-from.is.forces, -active.exact_residual(problem.rows, from.is.values),
                      tolerance::roughly_refined);
     Iterate to = from.iterate;
     to.x += solution.head(to.x.size());
     to.multipliers += solution.tail(to.multipliers.size());
-    if (!reaches(problem, from.iterate.x, to.x) || !std::isfinite(problem.distortion.value(to.x)))
-        return std::nullopt;
+    if (!reaches(problem, from.iterate.x, to.x)) return std::nullopt;
     State state = evaluated(problem, active, std::move(to));
-    if (state.is.distance_to_optimum() <= much * from.is.distance_to_optimum()) return state;
+    if (std::isfinite(state.is.energy) &&
+        state.is.distance_to_optimum() <= much * from.is.distance_to_optimum())
+        return state;
     return std::nullopt;
+}
+
+/// As many of them as do: the matrix has hardly changed (the chord method). Whether the first did.
+bool reuse_factor(const Problem& problem, const OptimalitySystem& system, const ActiveSet& active,
+                  double much, State& state, int& iterations) {
+    bool any = false;
+    while (!is_optimal(active, state.is)) {
+        auto next = stepped_to_conditions(problem, system, active, state, much);
+        if (!next) break;
+        state = std::move(*next);
+        ++iterations;
+        any = true;
+    }
+    return any;
 }
 
 /// Newton's method on the first-order conditions themselves, for as long as it brings them nearer
@@ -202,22 +218,13 @@ std::optional<State> stepped_to_conditions(const Problem& problem, const Optimal
 /// to the smooth curve.
 State solve_conditions(const Problem& problem, OptimalitySystem& system, const ActiveSet& active,
                        State state, int& iterations, const Progress& progress) {
-    const auto step = [&] {
-        auto next = stepped_to_conditions(problem, system, active, state);
-        if (!next) return false;
-        state = std::move(*next);
-        ++iterations;
-        return true;
-    };
-    const auto reuse_factor = [&] {  // its matrix has hardly changed (the chord method)
-        while (!is_optimal(active, state.is) && step()) {
-        }
-    };
-    reuse_factor();
+    constexpr double much = 0.1;
+    (void)reuse_factor(problem, system, active, much, state, iterations);
     while (!is_optimal(active, state.is)) {
         progress.check();
-        if (!system.factor_exact(problem, state.iterate, active.held, progress) || !step()) break;
-        reuse_factor();
+        if (!system.factor_exact(problem, state.iterate, active.held, progress) ||
+            !reuse_factor(problem, system, active, much, state, iterations))
+            break;
     }
     return state;
 }
@@ -299,8 +306,11 @@ End run(const Problem& problem, const Approach& approach, OptimalitySystem& syst
         int& iterations, const Progress& progress) {
     const std::vector<Row>& rows = problem.rows;
     const double area = problem.distortion.total_area();
-    ActiveSet active(rows);
+    ActiveSet active(rows, values_of(rows, state.iterate.x), state.iterate.multipliers);
     state = evaluated(problem, active, std::move(state.iterate));
+    constexpr double worth_a_solve = 0.4;  // a new factor costs as much as several of them
+    if (system.is_factored_with(active.held))
+        (void)reuse_factor(problem, system, active, worth_a_solve, state, iterations);
     Momentum momentum{state.is.energy < near_isometry * area};
     ErrorWatch watch;
     SlideWatch slide;

@@ -35,7 +35,8 @@ struct Minimum {
 /// Paper:  [smith-2015], [smith-2019]; the multipliers' system: [vanderbei-1995]; the merit
 ///         function and second-order correction: [nocedal-2006], chapters 15 and 18.
 /// In:     coordinates at which the energy is finite, with a multiplier per row: zero, or what a
-///         search before has left; a new system, or one that this problem has left.
+///         search before has left; a new system, or one that a problem of the same pattern has
+///         left: as long as its factor leads nearer, no other is made.
 /// Out:    charts without flipped triangles. Converged: the projected gradient is at most
 ///         `tolerance::projected_gradient` and every error at most `tolerance::solver_length`; or
 ///         no step lowers the energy and the gradient is at most `tolerance::stalled_gradient` or

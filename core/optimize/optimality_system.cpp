@@ -277,6 +277,8 @@ OptimalitySystem::DiagonalSize OptimalitySystem::fill(const Problem& problem,
                                                       const Iterate& iterate,
                                                       const std::vector<Held>& held,
                                                       HessianKind kind) {
+    is_factored_ = false;
+    held_ = held;
     std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
     add_terms(problem, iterate.x, kind);
     const auto unknowns = static_cast<Index>(iterate.x.size());
@@ -320,6 +322,7 @@ void OptimalitySystem::factor(const Problem& problem, const Iterate& iterate,
     static constexpr std::array exact_shifts{tolerance::rigid_motion, 1e-4, 1e-3, 1e-2, 1e-1};
     static constexpr std::array projected_shifts{tolerance::rigid_motion, 1e-7, 1e-5, 1e-3};
     prepare(problem, iterate.x);
+    threads_ = problem.threads;
     const auto attempt = [&](HessianKind attempted, std::span<const double> shifts,
                              double DiagonalSize::*measure) {
         const double typical = fill(problem, iterate, held, attempted).*measure;
@@ -329,7 +332,7 @@ void OptimalitySystem::factor(const Problem& problem, const Iterate& iterate,
             shifted = shift;
             if (solver_.factor(matrix_, progress, problem.threads) &&
                 solver_.negative_pivots() == static_cast<Index>(problem.rows.size()))
-                return true;
+                return is_factored_ = true;
         }
         return false;
     };
@@ -344,16 +347,17 @@ void OptimalitySystem::factor(const Problem& problem, const Iterate& iterate,
 bool OptimalitySystem::factor_exact(const Problem& problem, const Iterate& iterate,
                                     const std::vector<Held>& held, const Progress& progress) {
     prepare(problem, iterate.x);
+    threads_ = problem.threads;
     const double typical = fill(problem, iterate, held, HessianKind::exact).median;
     shift_diagonal(iterate, tolerance::rigid_motion * typical);
-    return solver_.factor(matrix_, progress, problem.threads);
+    return is_factored_ = solver_.factor(matrix_, progress, problem.threads);
 }
 
 Eigen::VectorXd OptimalitySystem::solve(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom,
                                         double accuracy) const {
     Eigen::VectorXd right(top.size() + bottom.size());
     right << top, bottom;
-    Eigen::VectorXd solution = solver_.solve(right);
+    Eigen::VectorXd solution = solver_.solve(right, threads_);
     // Refinement takes the multipliers' regularisation out again: one step as a rule, more where a
     // soft row says nearly the same as exact ones.
     constexpr int most_steps = 4;
@@ -364,7 +368,7 @@ Eigen::VectorXd OptimalitySystem::solve(const Eigen::VectorXd& top, const Eigen:
         const double norm = rest.norm();
         if (norm <= accuracy * right.norm() || norm > 0.5 * before) break;
         before = norm;
-        solution += solver_.solve(rest);
+        solution += solver_.solve(rest, threads_);
     }
     return solution;
 }

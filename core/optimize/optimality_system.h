@@ -47,6 +47,11 @@ public:
     [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom,
                                         double accuracy) const;
 
+    /// Whether the last factor, wherever it was made, is one with these rows held.
+    [[nodiscard]] bool is_factored_with(const std::vector<Held>& held) const {
+        return is_factored_ && held_ == held;
+    }
+
     /// What a rounding of the coordinates changes in the gradient, where it was filled last.
     [[nodiscard]] double gradient_round_off() const { return gradient_round_off_; }
 
@@ -85,6 +90,9 @@ private:
     double gradient_round_off_ = 0.0;
     double regularisation_ = 0.0;
     std::vector<Index> regularised_;  ///< unknowns that have it
+    std::vector<Held> held_;          ///< what the matrix was filled for
+    bool is_factored_ = false;
+    std::size_t threads_ = 1;  ///< of the last factor's problem
     MultifrontalLdlt solver_;
 };
 

@@ -19,6 +19,7 @@ using TakeBlock = std::function<void(Index row, Index column, const Eigen::Matri
 /// |x_a - x_b|, mm.
 struct Length {
     Index a, b;
+    bool operator==(const Length&) const = default;
     [[nodiscard]] std::array<Index, 2> vertices() const { return {a, b}; }
     [[nodiscard]] double value(const Eigen::VectorXd& x, const Vec2& /*o*/) const {
         return (point(x, a) - point(x, b)).norm();
@@ -46,6 +47,7 @@ struct Length {
 /// x_a cross x_b, mm^2.
 struct Cross {
     Index a, b;
+    bool operator==(const Cross&) const = default;
     [[nodiscard]] std::array<Index, 2> vertices() const { return {a, b}; }
     [[nodiscard]] double value(const Eigen::VectorXd& x, const Vec2& o) const {
         return cross(point(x, a) - o, point(x, b) - o);
@@ -64,6 +66,7 @@ struct Cross {
 /// Coordinate `axis` (0 or 1) of a vertex, mm.
 struct Coordinate {
     Index vertex, axis;
+    bool operator==(const Coordinate&) const = default;
     [[nodiscard]] std::array<Index, 1> vertices() const { return {vertex}; }
     [[nodiscard]] double value(const Eigen::VectorXd& x, const Vec2& /*o*/) const {
         return x[2 * vertex + axis];
@@ -79,6 +82,7 @@ struct Coordinate {
 struct RowTerm {
     double factor;
     std::variant<Length, Cross, Coordinate> of;
+    bool operator==(const RowTerm&) const = default;
 };
 
 /// The sum of the terms shall lie between `least` and `most`, mm.

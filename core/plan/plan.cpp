@@ -12,10 +12,6 @@
 namespace lastflat {
 namespace {
 
-bool is_bare(const SurfaceMesh& surface, const Request& request) {
-    return !says_how_to_cut(request) && !is_open(surface);
-}
-
 /// Whether a line comes to the filling, looked at from point to point.
 bool comes_to(const SurfaceMesh& surface, const SurfaceSearch& search, const Points3& line,
               const FilledFeature& feature) {
@@ -76,12 +72,21 @@ void name_welded_vertices(const SurfaceMesh& surface, Request& request) {
 
 }  // namespace
 
+bool is_bare(const SurfaceMesh& surface, const Request& request) {
+    return !says_how_to_cut(request) && !is_open(surface);
+}
+
 Plan make_plan(const SurfaceMesh& surface, const Request& request, const Progress& progress,
                std::size_t threads) {
+    if (!is_bare(surface, request)) return make_plan(surface, request, std::nullopt);
+    return make_plan(surface, request, find_landmarks(surface, progress, threads));
+}
+
+Plan make_plan(const SurfaceMesh& surface, const Request& request, std::optional<Landmarks> found) {
     Plan plan{request};
-    if (is_bare(surface, request)) {
+    if (found) {
         plan.found = request.curves.empty() ? Plan::Found::all : Plan::Found::some;
-        plan.landmarks = find_landmarks(surface, progress, threads);
+        plan.landmarks = std::move(found);
         warn_where_filled(surface, *plan.landmarks);
         fill_in(surface, *plan.landmarks, plan.request);
     }

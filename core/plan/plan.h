@@ -30,4 +30,11 @@ struct Plan {
 [[nodiscard]] Plan make_plan(const SurfaceMesh& surface, const Request& request,
                              const Progress& progress = Progress(), std::size_t threads = 1);
 
+/// Whether a plan of it needs landmarks.
+[[nodiscard]] bool is_bare(const SurfaceMesh& surface, const Request& request);
+
+/// The same with landmarks that are known, if it is bare.
+[[nodiscard]] Plan make_plan(const SurfaceMesh& surface, const Request& request,
+                             std::optional<Landmarks> found);
+
 }  // namespace lastflat

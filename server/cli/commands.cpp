@@ -107,7 +107,8 @@ int inspect_command(const fs::path& model, const std::optional<fs::path>& reques
 int map_command(const fs::path& flat_obj, const fs::path& points, Audience audience) {
     return reported(audience, [&] {
         const std::string pieces = file_bytes(flat_obj, ""), request = file_bytes(points, "");
-        std::cout << api::to_json(map_job(pieces, api::map_request_from_json(request)), indent)
+        PatternMap map(read_flat_obj(pieces));
+        std::cout << api::to_json(mapped(map, api::map_request_from_json(request)), indent)
                   << std::endl;
     });
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/map/pattern_map.h"
 
 namespace lastflat::server {
 namespace {
@@ -50,7 +49,7 @@ api::Mapped::ToPattern to_pattern(const PatternMap& map, const api::Drawing<Vec3
     return mapped;
 }
 
-api::Mapped::ToLast to_last(const PatternMap& map, const api::Drawing<Vec2>& drawing) {
+api::Mapped::ToLast to_last(PatternMap& map, const api::Drawing<Vec2>& drawing) {
     api::Mapped::ToLast mapped;
     for (const Vec2& point : drawing.points) {
         const auto at = map.to_last(drawing.region, point);
@@ -80,15 +79,14 @@ auto named(const char* drawing, const Map& map) {
 
 }  // namespace
 
-api::Mapped map_job(const std::string& flat_obj, const api::MapRequest& request) {
-    const PatternMap map(read_flat_obj(flat_obj));
-    api::Mapped mapped;
+api::Mapped mapped(PatternMap& map, const api::MapRequest& request) {
+    api::Mapped found;
     if (request.to_pattern)
-        mapped.to_pattern =
+        found.to_pattern =
             named("to_pattern", [&] { return to_pattern(map, *request.to_pattern); });
     if (request.to_last)
-        mapped.to_last = named("to_last", [&] { return to_last(map, *request.to_last); });
-    return mapped;
+        found.to_last = named("to_last", [&] { return to_last(map, *request.to_last); });
+    return found;
 }
 
 }  // namespace lastflat::server

@@ -1,14 +1,13 @@
 // Points and lines from the last to its pattern and back.
 #pragma once
 
-#include <string>
-
 #include "api/map.h"
+#include "core/map/pattern_map.h"
 
 namespace lastflat::server {
 
-/// `flat_obj`: the pieces, as a result's OBJ. Lines come back with points a millimetre apart.
+/// Lines come back with points a millimetre apart.
 /// Throws: Error.
-[[nodiscard]] api::Mapped map_job(const std::string& flat_obj, const api::MapRequest& request);
+[[nodiscard]] api::Mapped mapped(PatternMap& map, const api::MapRequest& request);
 
 }  // namespace lastflat::server

@@ -87,7 +87,8 @@ WorkMessage run_flatten(const WorkOrder& order, const JobInput& input) {
 WorkMessage work(const WorkOrder& order) {
     if (order.task == Task::map) {
         const auto request = api::map_request_from_json(order.request);
-        return Report{api::to_json(map_job(read_model(order), request))};
+        PatternMap map(read_flat_obj(read_model(order)));
+        return Report{api::to_json(mapped(map, request))};
     }
     if (order.task == Task::thumbnail) {
         (void)read_model(order);  // it is what it was

@@ -3,9 +3,9 @@ cmake_minimum_required(VERSION 3.25)
 
 # Core, in its order: each sees itself and those before it. An entry is a folder, a file directly in
 # core, or a file that goes before or after the rest of its folder.
-set(core_order numerics/types text utf8 error progress parallel overloaded stopwatch request
+set(core_order numerics/types text utf8 error progress parallel append overloaded stopwatch request
     numerics load weld geodesic locate cut landmarks defeature plan cut/cut_surface fan border parameterize optimize constrain
-    layout outline measure result map prepare flatten inspect export sample)
+    layout outline measure result map prepare solve assemble flatten session inspect export sample)
 
 # The rooms of the server, in their order, each with what it knows beside itself.
 set(server_rooms

@@ -19,7 +19,8 @@ inline Minimum minimised(const Region& region, const Chart& start,
     Problem problem = free;
     for (const ConstraintRow& row : constraint_rows(domain, constraints))
         problem.rows.push_back(row);
-    return minimise_distortion(free, problem, {start}, progress);
+    OptimalitySystem system;
+    return minimise_distortion(free, problem, {start}, system, progress);
 }
 
 /// The same with its conflicts resolved and its border kept from crossing.

@@ -19,7 +19,7 @@ FlattenResult flat_sample() {
 TEST_SUITE("core/map/pattern_map") {
     TEST_CASE("vertices are exact, and the way there and back ends where it began") {
         const FlattenResult result = flat_sample();
-        const PatternMap map(read_flat_obj(write_flat_obj(result)));
+        PatternMap map(read_flat_obj(write_flat_obj(result)));
         double at_vertices = 0.0, there_and_back = 0.0;
         for (const FlatRegion& flat : result.regions) {
             for (std::size_t v = 0; v < flat.region.positions.size(); v += 7) {
@@ -46,7 +46,7 @@ TEST_SUITE("core/map/pattern_map") {
 
     TEST_CASE("how far a point is off is said, and a piece that is not there is refused") {
         const FlattenResult result = flat_sample();
-        const PatternMap map(read_flat_obj(write_flat_obj(result)));
+        PatternMap map(read_flat_obj(write_flat_obj(result)));
         const FlatRegion& flat = result.regions.front();
         CHECK(map.to_pattern(flat.region.positions[0] + Vec3(0, 0, 500)).distance > 300.0);
         CHECK(map.to_last(flat.region.name, {9000.0, 0.0}).distance > 8000.0);
