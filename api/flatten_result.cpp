@@ -119,7 +119,9 @@ Json fan_json(const FlatRegion& flat, const SourceIds& sources) {
             {"spokes", std::move(spokes)}};
 }
 
-std::string region_text(const FlattenResult& result, const FlatRegion& flat, bool with_geometry) {
+enum class Detail { metrics, moved, whole };
+
+std::string region_text(const FlattenResult& result, const FlatRegion& flat, Detail detail) {
     Json json{{"name", flat.region.name},
               {"method", word_of(method_words, result.plan.request.method.name)}};
     json["curves"] = Json::array();
@@ -129,11 +131,12 @@ std::string region_text(const FlattenResult& result, const FlatRegion& flat, boo
     json["iterations"] = flat.iterations;
     if (flat.energy) json["energy"] = *flat.energy;
     if (flat.projected_gradient) json["projected_gradient"] = *flat.projected_gradient;
-    if (!with_geometry) return text_of(json);
+    if (detail == Detail::metrics) return text_of(json);
     if (flat.fan && tells_fan(result.plan.request)) json["fan"] = fan_json(flat, result.sources);
     std::string text = text_of(json);
     text.pop_back();
-    return text + "," + geometry_text(flat, result.sources) + "}";
+    if (detail == Detail::whole) text += "," + mesh_text(flat, result.sources);
+    return text + "," + chart_text(flat) + "}";
 }
 
 Json layout_json(const FlattenResult& result) {
@@ -165,7 +168,7 @@ Json points_json(const FlattenResult& result) {
 }
 
 /// Everything but the regions.
-Json rest_of(const FlattenResult& result, const std::string& version, bool with_geometry) {
+Json rest_of(const FlattenResult& result, const std::string& version, Detail detail) {
     Json pairs = Json::array(), constraints = Json::array();
     for (const PairReport& p : result.pairs) {
         pairs.push_back({{"curve", p.curve},
@@ -180,10 +183,10 @@ Json rest_of(const FlattenResult& result, const std::string& version, bool with_
     Json document{{"pairs", std::move(pairs)},
                   {"constraints", std::move(constraints)},
                   {"points", points_json(result)}};
-    if (with_geometry) document["layout"] = layout_json(result);
+    if (detail != Detail::metrics) document["layout"] = layout_json(result);
     document["warnings"] = json_of(result.warnings);
     document["repairs"] = json_of(result.repairs);
-    if (result.plan.landmarks && with_geometry) document["found"] = json_of(result.plan);
+    if (result.plan.landmarks && detail == Detail::whole) document["found"] = json_of(result.plan);
     if (!result.sources.added.empty()) {
         document["added_vertices"] = {{"count", result.sources.added.size()},
                                       {"smallest_angle_deg", degrees(result.smallest_added_angle)}};
@@ -198,26 +201,29 @@ Json rest_of(const FlattenResult& result, const std::string& version, bool with_
     return document;
 }
 
-std::string document_of(const FlattenResult& result, const std::string& version,
-                        bool with_geometry) {
+std::string document_of(const FlattenResult& result, const std::string& version, Detail detail) {
     std::string text = "{\"regions\":[";
     for (const FlatRegion& flat : result.regions) {
         if (text.back() == '}') text += ',';
-        text += region_text(result, flat, with_geometry);
+        text += region_text(result, flat, detail);
     }
     text += ']';
-    if (with_geometry) text += ',' + model_text(result);
-    return text + ',' + text_of(rest_of(result, version, with_geometry)).substr(1);
+    if (detail == Detail::whole) text += ',' + model_text(result);
+    return text + ',' + text_of(rest_of(result, version, detail)).substr(1);
 }
 
 }  // namespace
 
 std::string to_json(const FlattenResult& result, const std::string& version) {
-    return document_of(result, version, true);
+    return document_of(result, version, Detail::whole);
 }
 
 std::string metrics_json(const FlattenResult& result, const std::string& version) {
-    return document_of(result, version, false);
+    return document_of(result, version, Detail::metrics);
+}
+
+std::string moved_json(const FlattenResult& result, const std::string& version) {
+    return document_of(result, version, Detail::moved);
 }
 
 }  // namespace lastflat::api

@@ -16,4 +16,8 @@ namespace lastflat::api {
 /// The same without what grows with the mesh: no coordinates, triangles, outlines, fan or layout.
 [[nodiscard]] std::string metrics_json(const FlattenResult& result, const std::string& version);
 
+/// The same without what stays while the regions do: no triangles, no ways back to the model,
+/// nothing that was found.
+[[nodiscard]] std::string moved_json(const FlattenResult& result, const std::string& version);
+
 }  // namespace lastflat::api

@@ -129,13 +129,27 @@ Json seam_vertices(const FlattenResult& result) {
 
 }  // namespace
 
-std::string geometry_text(const FlatRegion& flat, const SourceIds& sources) {
-    std::string text = "\"uv_mm\":";
-    append(text, flat.chart.uv);
-    text += ",\"triangles\":";
+std::string mesh_text(const FlatRegion& flat, const SourceIds& sources) {
+    std::string text = "\"triangles\":";
     append(text, flat.region.triangles);
     append_sources(text, flat.region, sources);
-    text += ",\"outline\":";
+    return text;
+}
+
+std::string coordinates_text(const Points2& points) {
+    std::string text;
+    append(text, points);
+    return text;
+}
+
+std::string coordinates_text(const Points3& points) {
+    std::string text;
+    append(text, points);
+    return text;
+}
+
+std::string chart_text(const FlatRegion& flat) {
+    std::string text = "\"uv_mm\":" + coordinates_text(flat.chart.uv) + ",\"outline\":";
     append(text, flat.outline);
     text += ",\"holes\":";
     append(text, flat.outline.holes);

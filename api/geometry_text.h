@@ -7,8 +7,15 @@
 
 namespace lastflat::api {
 
-/// Members of a region's object: `uv_mm`, `triangles`, the ways back to the model, outlines.
-[[nodiscard]] std::string geometry_text(const FlatRegion& flat, const SourceIds& sources);
+/// Members of a region's object: `triangles` and the ways back to the model.
+[[nodiscard]] std::string mesh_text(const FlatRegion& flat, const SourceIds& sources);
+
+/// The others: `uv_mm` and outlines.
+[[nodiscard]] std::string chart_text(const FlatRegion& flat);
+
+/// Coordinates as lists in a list, in text.
+[[nodiscard]] std::string coordinates_text(const Points2& points);
+[[nodiscard]] std::string coordinates_text(const Points3& points);
 
 /// The member `model`: what the ids of all regions refer to.
 [[nodiscard]] std::string model_text(const FlattenResult& result);

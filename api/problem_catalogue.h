@@ -49,6 +49,12 @@ inline constexpr CataloguedProblem problem_catalogue[] = {
     {"format_unknown", 400},
     {"not_acceptable", 406},
     {"queue_full", 503},
+    // Of live sessions
+    {"session_not_found", 404},
+    {"session_lost", 410},
+    {"superseded", 409},
+    {"sessions_full", 503},
+    {"key_sessions_full", 429},
     // Of keys, storage and limits
     {"key_missing", 401},
     {"key_unknown", 401},

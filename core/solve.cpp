@@ -130,4 +130,14 @@ std::optional<Solution> solve_again(const Prepared& prepared, const FlattenOptio
     return solution;
 }
 
+void refresh(const Prepared& prepared, const FlattenOptions& options, const Progress& progress,
+             WarmGroups& warm) {
+    const std::size_t inner_threads =
+        std::max<std::size_t>(1, options.threads / std::max<std::size_t>(1, warm.size()));
+    for_each_index(warm.size(), options.threads, [&](std::size_t g) {
+        refresh(Domain(parts_of(prepared, warm[g].regions)), prepared.plan.request,
+                prepared.constraints, inner_threads, progress, warm[g].warmth);
+    });
+}
+
 }  // namespace lastflat

@@ -48,4 +48,9 @@ using WarmGroups = std::vector<WarmGroup>;
                                                   const FlattenOptions& options,
                                                   const Progress& progress, WarmGroups& warm);
 
+/// Makes the factors anew with which the next solve begins.
+/// Throws: Error{canceled}.
+void refresh(const Prepared& prepared, const FlattenOptions& options, const Progress& progress,
+             WarmGroups& warm);
+
 }  // namespace lastflat

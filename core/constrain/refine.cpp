@@ -77,4 +77,12 @@ std::optional<ConstrainedChart> refine_again(const Domain& domain, const Request
     });
 }
 
+void refresh(const Domain& domain, const Request& request,
+             const std::vector<Constraint>& constraints, std::size_t threads,
+             const Progress& progress, Warmth& warmth) {
+    with_demands(domain, request, constraints, [&](const Demands& demands) {
+        refresh(domain, demands, threads, progress, warmth);
+    });
+}
+
 }  // namespace lastflat

@@ -21,4 +21,9 @@ namespace lastflat {
     const Domain& domain, const Request& request, const std::vector<Constraint>& constraints,
     std::size_t threads, const Progress& progress, Warmth& warmth);
 
+/// `refresh` for `isometric`.
+void refresh(const Domain& domain, const Request& request,
+             const std::vector<Constraint>& constraints, std::size_t threads,
+             const Progress& progress, Warmth& warmth);
+
 }  // namespace lastflat

@@ -102,6 +102,15 @@ public:
         return result;
     }
 
+    void refresh() {
+        const Problem problem = problem_of(role_);
+        if (!are_alike(left_->rows, problem.rows)) return;
+        Iterate& iterate = left_->iterate;
+        const ActiveSet active(problem.rows, values_of(problem.rows, iterate.x),
+                               iterate.multipliers);
+        (void)left_->system.factor_exact(problem, iterate, active.held, progress_);
+    }
+
 private:
     enum class Role { kept, soft, absent };
 
@@ -319,6 +328,13 @@ std::optional<ConstrainedChart> least_distortion_again(const Domain& domain, con
     if (warmth.is_empty()) return std::nullopt;
     const std::vector<Chart> no_starts;
     return Resolver(domain, no_starts, demands, threads, progress, &warmth).run_again();
+}
+
+void refresh(const Domain& domain, const Demands& demands, std::size_t threads,
+             const Progress& progress, Warmth& warmth) {
+    if (warmth.is_empty()) return;
+    const std::vector<Chart> no_starts;
+    Resolver(domain, no_starts, demands, threads, progress, &warmth).refresh();
 }
 
 }  // namespace lastflat

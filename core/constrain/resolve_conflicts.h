@@ -52,4 +52,10 @@ struct Demands {
                                                                      const Progress& progress,
                                                                      Warmth& warmth);
 
+/// Makes the factor anew where the solve with these demands ended: the next one then begins with
+/// the best that there is.
+/// Throws: Error{canceled}; the warmth is then without a factor.
+void refresh(const Domain& domain, const Demands& demands, std::size_t threads,
+             const Progress& progress, Warmth& warmth);
+
 }  // namespace lastflat

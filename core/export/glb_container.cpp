@@ -95,6 +95,11 @@ std::size_t GlbContainer::add_indices(const std::vector<Triangle>& triangles) {
                         index_buffer);
 }
 
+std::size_t GlbContainer::add_ids(const std::vector<Index>& ids) {
+    for (const Index id : ids) append(buffer_, static_cast<std::uint32_t>(id));
+    return add_accessor("SCALAR", uint_component, ids.size(), 4 * ids.size(), no_target);
+}
+
 std::string GlbContainer::write() const {
     Json document = document_;
     document["buffers"] = Json::array({{{"byteLength", buffer_.size()}}});

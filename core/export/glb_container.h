@@ -24,6 +24,8 @@ public:
     std::size_t add_texture_coordinates(const Points2& points);
     /// SCALAR of unsigned 32 bit; returns the accessor.
     std::size_t add_indices(const std::vector<Triangle>& triangles);
+    /// The same of ids that no primitive uses.
+    std::size_t add_ids(const std::vector<Index>& ids);
 
     [[nodiscard]] nlohmann::ordered_json& document() { return document_; }
     [[nodiscard]] std::string write() const;

@@ -33,8 +33,13 @@ double percentile(const std::vector<std::pair<double, double>>& values, double t
     return values.back().first;
 }
 
+void sort_by_value(std::vector<std::pair<double, double>>& values) {
+    std::sort(values.begin(), values.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+}
+
 StretchPercentiles percentiles(std::vector<std::pair<double, double>> values, double total) {
-    std::sort(values.begin(), values.end());
+    sort_by_value(values);
     return {percentile(values, total, 0.01), percentile(values, total, 0.05),
             percentile(values, total, 0.50), percentile(values, total, 0.95),
             percentile(values, total, 0.99)};
@@ -42,12 +47,15 @@ StretchPercentiles percentiles(std::vector<std::pair<double, double>> values, do
 
 std::vector<WorstStrain> worst_strains(const Region& region, std::vector<Leather> leather,
                                        double total) {
-    std::sort(leather.begin(), leather.end(), [](const Leather& a, const Leather& b) {
-        return std::pair(-std::abs(a.worst()), a.triangle) <
-               std::pair(-std::abs(b.worst()), b.triangle);
-    });
+    const auto less = [](const Leather& a, const Leather& b) {
+        return std::pair(std::abs(a.worst()), -a.triangle) <
+               std::pair(std::abs(b.worst()), -b.triangle);
+    };
+    std::make_heap(leather.begin(), leather.end(), less);
     std::vector<WorstStrain> worst;
-    for (const Leather& l : leather) {
+    for (auto end = leather.end(); end != leather.begin(); --end) {
+        std::pop_heap(leather.begin(), end, less);  // to its place before the end
+        const Leather& l = *(end - 1);
         if (worst.size() == most_listed || std::abs(l.worst()) < tolerance::noticed_strain_percent)
             break;
         const Triangle& t = region.triangles[static_cast<std::size_t>(l.triangle)];
@@ -72,7 +80,7 @@ double strain_behind_toe(const Region& region, const std::vector<Leather>& leath
         behind += l.surface;
     }
     if (strains.empty()) return 0.0;
-    std::sort(strains.begin(), strains.end());
+    sort_by_value(strains);
     return percentile(strains, behind, 0.99);
 }
 

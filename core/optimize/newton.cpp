@@ -39,13 +39,6 @@ struct State {
     Evaluation is;
 };
 
-VectorXd values_of(const std::vector<Row>& rows, const VectorXd& x) {
-    VectorXd values(static_cast<Eigen::Index>(rows.size()));
-    std::transform(rows.begin(), rows.end(), values.begin(),
-                   [&](const Row& row) { return row.value(x); });
-    return values;
-}
-
 /// The multiplier of a soft row follows from its error.
 State evaluated(const Problem& problem, const ActiveSet& active, Iterate iterate) {
     Evaluation is;
@@ -179,17 +172,17 @@ Step take_step(const Problem& problem, OptimalitySystem& system, const ActiveSet
 }
 
 /// One full step with the last factor, if it leaves less than this share of the distance to the
-/// conditions. It corrects what
-/// is left of the Lagrangian's gradient, so that an old matrix does not tilt the multipliers.
+/// conditions. It corrects what is left of the Lagrangian's gradient, so that an old matrix does
+/// not tilt the multipliers.
 std::optional<State> stepped_to_conditions(const Problem& problem, const OptimalitySystem& system,
                                            const ActiveSet& active, const State& from,
                                            double much) {
-    const VectorXd solution =
+    const VectorXd step =
         system.solve(-from.is.forces, -active.exact_residual(problem.rows, from.is.values),
                      tolerance::roughly_refined);
     Iterate to = from.iterate;
-    to.x += solution.head(to.x.size());
-    to.multipliers += solution.tail(to.multipliers.size());
+    to.x += step.head(to.x.size());
+    to.multipliers += step.tail(to.multipliers.size());
     if (!reaches(problem, from.iterate.x, to.x)) return std::nullopt;
     State state = evaluated(problem, active, std::move(to));
     if (std::isfinite(state.is.energy) &&

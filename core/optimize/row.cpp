@@ -34,6 +34,13 @@ void Row::for_hessian(const Eigen::VectorXd& x, double multiplier, HessianKind k
     }
 }
 
+Eigen::VectorXd values_of(const std::vector<Row>& rows, const Eigen::VectorXd& x) {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(rows.size()));
+    std::transform(rows.begin(), rows.end(), values.begin(),
+                   [&](const Row& row) { return row.value(x); });
+    return values;
+}
+
 void add_forces(const std::vector<Row>& rows, const Eigen::VectorXd& x,
                 const Eigen::VectorXd& multipliers, Eigen::VectorXd& gradient) {
     for (std::size_t k = 0; k < rows.size(); ++k) {

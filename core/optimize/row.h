@@ -141,6 +141,8 @@ struct Row {
                      const TakeBlock& take) const;
 };
 
+[[nodiscard]] Eigen::VectorXd values_of(const std::vector<Row>& rows, const Eigen::VectorXd& x);
+
 /// Adds every row's gradient times its multiplier.
 void add_forces(const std::vector<Row>& rows, const Eigen::VectorXd& x,
                 const Eigen::VectorXd& multipliers, Eigen::VectorXd& gradient);

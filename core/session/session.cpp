@@ -63,6 +63,14 @@ std::vector<Start> carried_starts(const std::vector<Region>& regions, const Flat
     return starts;
 }
 
+/// As many as a good factor needs.
+bool took_few_steps(const Solution& solution) {
+    constexpr int few = 3;
+    return std::all_of(
+        solution.groups.begin(), solution.groups.end(),
+        [](const SolvedGroup& group) { return group.refined.minimum.iterations <= few; });
+}
+
 /// How far the vertices of the file that both pieces have once lie apart at most, mm.
 double difference(const FlatRegion& a, const SourceIds& a_ids, const FlatRegion& b,
                   const SourceIds& b_ids) {
@@ -174,25 +182,32 @@ std::unique_ptr<Session::State> Session::begun(ShownApart asked, std::shared_ptr
 }
 
 void Session::change_pattern(ShownApart asked, Progress& progress) {
+    Stopwatch total, lap;
     State& state = *state_;
     const std::vector<SurfaceLine> lines = shown_lines(state, asked);
     Prepared next = state.prepared;
     ask(next, plan_of(*state.model, asked.request, progress));
+    Timing timing{0.0, lap.lap()};
     progress.reach(Stage::constrain, 0.5, 0.9);
-    WarmGroups warm;
+    WarmGroups left;
     auto solution = solve_again(next, options_, progress, state.warm);
     const bool is_warm = solution.has_value();
     if (!is_warm)
         solution =
-            solve(next, start_charts(next, options_.threads, progress), options_, progress, &warm);
+            solve(next, start_charts(next, options_.threads, progress), options_, progress, &left);
+    const bool is_settled = took_few_steps(*solution);
+    timing.constrain_ms = lap.lap();
     progress.reach(Stage::measure, 0.9, 1.0);
     FlattenResult result = assembled(next, std::move(*solution), options_);
+    timing.total_ms = total.lap();
+    result.timing = timing;
     state.map->move_to(charts_of(result));
     show(state, lines);
     state.prepared = std::move(next);
     state.result = std::move(result);
-    if (!is_warm) state.warm = std::move(warm);
+    if (!is_warm) state.warm = std::move(left);
     state.asked = std::move(asked);
+    is_settled_ = is_settled;
 }
 
 Reach Session::change(const Request& request, Progress& progress) {
@@ -216,6 +231,12 @@ Reach Session::change(const Request& request, Progress& progress) {
     }
     options_.request = request;
     return reach;
+}
+
+void Session::settle() {
+    if (is_settled_) return;
+    is_settled_ = true;
+    refresh(state_->prepared, options_, Progress(), state_->warm);
 }
 
 double Session::difference_from_job(Progress& progress) const {

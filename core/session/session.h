@@ -27,6 +27,9 @@ public:
     /// Throws: Error, as `flatten` does; the session is then as it was.
     Reach change(const Request& request, Progress& progress);
 
+    /// For when nobody waits: makes the next change quick. Nothing to be done is nothing done.
+    void settle();
+
     [[nodiscard]] const FlattenResult& pattern() const;
     [[nodiscard]] const std::vector<ShownCurve>& curves() const;
     /// The surface without any curve in it: vertices of the file, welded.
@@ -55,6 +58,7 @@ private:
     std::string model_;
     FlattenOptions options_;  ///< its request is what is asked now
     std::unique_ptr<State> state_;
+    bool is_settled_ = true;
 };
 
 }  // namespace lastflat

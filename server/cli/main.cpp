@@ -129,6 +129,16 @@ CLI::App* add_serve(CLI::App& app, Arguments& a) {
         ->check(CLI::Range(1, 1024));
     options.add("streams", s.streams, "Event streams and long polls at once")
         ->check(CLI::Range(0, 1024));
+    options.add("sessions", s.sessions, "Live sessions at once")->check(CLI::Range(0, 256));
+    options.add("sessions-per-key", s.sessions_per_key, "Live sessions of one API key")
+        ->check(CLI::Range(1, 256));
+    options.add("session-rate", s.session_rate,
+                "Requests of one API key to live sessions in a minute; 0: any number");
+    options
+        .add("session-memory-mb", s.session_memory_mb, "Memory of one live session, MiB; 0: any")
+        ->check(CLI::Range(0, 1 << 20));
+    options.add_duration("session-idle", s.session_idle_ms,
+                         "After which a live session that nobody asks ends");
     options.add("job-memory-mb", s.job_memory_mb, "Memory of one job, MiB; 0: any")
         ->check(CLI::Range(0, 1 << 20));
     options.add_duration("job-time", s.job_time_ms, "Time of one job");

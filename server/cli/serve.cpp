@@ -23,6 +23,7 @@
 #include "server/routes/job_routes.h"
 #include "server/routes/own_machine.h"
 #include "server/routes/result_routes.h"
+#include "server/routes/session_routes.h"
 #include "server/routes/submit_routes.h"
 #include "server/routes/token_routes.h"
 #include "server/routes/validate_route.h"
@@ -99,6 +100,14 @@ ProcessLimits process_limits(const Settings& settings) {
     return limits;
 }
 
+SessionLimits session_limits(const Settings& settings) {
+    SessionLimits limits{settings.sessions, settings.sessions_per_key,
+                         std::chrono::milliseconds(settings.session_idle_ms),
+                         process_limits(settings)};
+    limits.process.memory_mb = settings.session_memory_mb;
+    return limits;
+}
+
 /// Everything that the service consists of. A member uses only those above it.
 class App {
 public:
@@ -137,6 +146,7 @@ public:
 
     void stop() {
         draining_ = true;
+        sessions_.stop();
         runners_.stop(std::chrono::milliseconds(settings_.grace_ms));
         watch_.close(last_words);
         main_->stop();
@@ -162,6 +172,8 @@ private:
         add(batch_routes({intake_, control_, batches_}));
         add(batch_result_routes({batches_, blobs_}));
         add({batch_event_route({batches_, watch_, seats_})});
+        add(session_routes(
+            {sessions_, intake_, assets_, blobs_, view_, seats_, settings_.min_free_mb}));
         add(webhook_routes(webhooks_, settings_.webhooks != WebhookTargets::none));
         add({token_route(tokens_)});
         add({health_route(admin_services_)});
@@ -221,6 +233,7 @@ private:
     SeatsByKey seats_{settings_.streams};
     const TaskAnswers tasks_{
         seats_, run_tasks_in_workers(limits_, data_.work(), [this] { return watch_.is_closed(); })};
+    LiveSessions sessions_{session_limits(settings_), data_.work()};
     const JobView view_{watch_, estimate_, settings_.workers};
     const JobWait wait_{jobs_, watch_, seats_, view_};
     const BatchView batches_{jobs_, view_, watch_, seats_};
@@ -235,7 +248,10 @@ private:
                                         }};
     const Tokens tokens_{keys_.secret("tokens")};
     Access access_{
-        keys_, jobs_, tokens_, {settings_.rate, settings_.allowed_origins, settings_.listen.host}};
+        keys_,
+        jobs_,
+        tokens_,
+        {settings_.rate, settings_.session_rate, settings_.allowed_origins, settings_.listen.host}};
     std::optional<Listener> main_, admin_;
 };
 

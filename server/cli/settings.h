@@ -30,6 +30,10 @@ struct Settings {
     std::size_t connections = 64;            ///< served at once
     std::size_t streams = 64;                ///< long polls and event streams at once
     std::size_t rate = 6000;                 ///< requests of one key in a minute; 0: any number
+    std::size_t sessions = 8, sessions_per_key = 2;  ///< live ones
+    std::size_t session_rate = 12'000;  ///< requests of one key to them in a minute; 0: any number
+    int session_memory_mb = 2048;       ///< of one of them; 0: no limit
+    std::int64_t session_idle_ms = 600'000;  ///< after which one that nobody asks ends
     int job_memory_mb = 4096;                ///< of one job; 0: no limit
     std::int64_t job_time_ms = 300'000;
     std::int64_t lease_ms = 60'000;

@@ -19,9 +19,10 @@ namespace lastflat::server {
 
 enum class Task {
     flatten,
-    inspect,   ///< only load and check
-    map,       ///< between last and pattern; the model is a result's OBJ
-    thumbnail  ///< a picture as wide as `request` says; the model is a result's SVG
+    inspect,    ///< only load and check
+    map,        ///< between last and pattern; the model is a result's OBJ
+    thumbnail,  ///< a picture as wide as `request` says; the model is a result's SVG
+    session     ///< until its input ends; its messages are others (`session_messages.h`)
 };
 
 struct WorkOrder {

@@ -81,27 +81,32 @@ Grant Access::check_token(http::Request& request, std::string_view token, bool o
 }
 
 void Access::count(http::Request& request) {
-    if (rules_.rate == 0 || request.principal.empty()) return;
+    const bool live = request.path.starts_with("/v1/sessions/");
+    const std::size_t rate = live ? rules_.session_rate : rules_.rate;
+    if (rate == 0 || request.principal.empty()) return;
     std::size_t left = 0;
     bool over = false;
     std::int64_t seconds = 0;
     {
         const std::scoped_lock lock(mutex_);
-        Window& window = windows_[request.principal];
+        Window& window = (live ? session_windows_ : windows_)[request.principal];
         const std::int64_t now = now_ms();
         if (now - window.begin_ms >= window_ms || now < window.begin_ms) window = {now, 0};
-        over = window.requests >= rules_.rate;
+        over = window.requests >= rate;
         if (!over) ++window.requests;
-        left = rules_.rate - window.requests;
+        left = rate - window.requests;
         seconds = (window.begin_ms + window_ms - now + 999) / 1000;
     }
+    const std::string policy = live ? "\"sessions\"" : "\"default\"";
     request.answer_headers.emplace_back("RateLimit-Policy",
-                                        "\"default\";q=" + std::to_string(rules_.rate) + ";w=60");
+                                        policy + ";q=" + std::to_string(rate) + ";w=60");
     request.answer_headers.emplace_back(
-        "RateLimit", "\"default\";r=" + std::to_string(left) + ";t=" + std::to_string(seconds));
+        "RateLimit", policy + ";r=" + std::to_string(left) + ";t=" + std::to_string(seconds));
     if (over)
-        throw api::Refusal("rate_exceeded", "this API key may send " + std::to_string(rules_.rate) +
-                                                " requests a minute (--rate)")
+        throw api::Refusal("rate_exceeded",
+                           "this API key may send " + std::to_string(rate) +
+                               (live ? " requests a minute to live sessions (--session-rate)"
+                                     : " requests a minute (--rate)"))
             .with_header("Retry-After", std::to_string(seconds));
 }
 
@@ -124,7 +129,7 @@ void Access::allow_origin(http::Request& request) const {
     request.answer_headers.insert(request.answer_headers.end(), headers.begin(), headers.end());
     if (headers.size() < 2 || request.method != "OPTIONS") return;
     request.answer_headers.emplace_back("Access-Control-Allow-Methods",
-                                        "GET, HEAD, POST, PUT, DELETE");
+                                        "GET, HEAD, POST, PUT, PATCH, DELETE");
     request.answer_headers.emplace_back(
         "Access-Control-Allow-Headers",
         "Authorization, Content-Type, Content-Digest, Idempotency-Key, Prefer, Cancel-After, "

@@ -12,6 +12,7 @@ namespace lastflat::server {
 
 struct AccessRules {
     std::size_t rate = 6000;                   ///< requests of one key in a minute; 0: any number
+    std::size_t session_rate = 12'000;         ///< of those to live sessions, beside the others
     std::vector<std::string> allowed_origins;  ///< web pages that may call (CORS)
     std::string listen_host;                   ///< what the service may be asked as
 };
@@ -47,7 +48,7 @@ private:
     const Tokens& tokens_;
     const AccessRules rules_;
     std::mutex mutex_;
-    std::map<std::string, Window> windows_;  ///< by key
+    std::map<std::string, Window> windows_, session_windows_;  ///< by key
 };
 
 }  // namespace lastflat::server

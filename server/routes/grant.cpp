@@ -49,7 +49,7 @@ bool allows(const Grant& grant, std::string_view method, std::string_view path,
     switch (grant.kind) {
         case Grant::Kind::all: return true;
         case Grant::Kind::jobs:
-            return looks || submits ||
+            return looks || submits || path.starts_with("/v1/sessions") ||
                    (method == "POST" && (path == "/v1/jobs:batch" || path.ends_with("/cancel")));
         case Grant::Kind::read: return looks;
         case Grant::Kind::submit: return submits;

@@ -6,7 +6,7 @@
 namespace lastflat::server {
 namespace {
 
-constexpr std::chrono::milliseconds look_at_client{250};
+constexpr std::chrono::milliseconds look_at_waiter{250};
 
 }  // namespace
 
@@ -22,7 +22,7 @@ JobRecord JobWait::wait(const http::Request& request, JobRecord job, int seconds
         if (until_change && !has_already(request, view_.etag(job))) return job;
         // The seat of a client that has gone is free for others.
         while (
-            !subscription.wait_until(std::min(deadline, JobWatch::Clock::now() + look_at_client))) {
+            !subscription.wait_until(std::min(deadline, JobWatch::Clock::now() + look_at_waiter))) {
             const bool over = JobWatch::Clock::now() >= deadline || watch_.is_closed();
             if (over || request.is_client_gone()) return job;
         }

@@ -1,0 +1,166 @@
+#include "server/worker/session_loop.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <deque>
+#include <iostream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "api/flatten_request.h"
+#include "api/map.h"
+#include "api/problem_of.h"
+#include "api/refusal.h"
+#include "api/session.h"
+#include "core/export/write_surface_glb.h"
+#include "core/session/session.h"
+#include "server/protocol/session_messages.h"
+#include "server/support/version.h"
+#include "server/worker/map_job.h"
+
+namespace lastflat::server {
+namespace {
+
+[[noreturn]] void refuse_superseded() {
+    api::refuse("superseded",
+                "a newer change came before this one was done; nothing of it took effect");
+}
+
+void say(const SessionAnswer& answer) {
+    static std::mutex one_at_a_time;
+    const std::scoped_lock lock(one_at_a_time);
+    std::cout << to_bytes(answer) << std::flush;
+}
+
+/// What is to be answered. One thread reads, one answers.
+class Asks {
+public:
+    /// Until standard input ends; then the process does.
+    void read() {
+        for (std::string line; std::getline(std::cin, line);) add(session_ask_of(line));
+        std::_Exit(0);
+    }
+
+    /// The next, and what cancels it; waits for one.
+    [[nodiscard]] SessionAsk next(Progress& progress) {
+        std::unique_lock lock(mutex_);
+        come_.wait(lock, [&] { return !waiting_.empty(); });
+        auto [ask, is_stale] = std::move(waiting_.front());
+        waiting_.pop_front();
+        if (ask.kind == AskKind::change) {
+            running_ = &progress;
+            if (is_stale || ask.sequence < newest_) progress.cancel();
+        }
+        return std::move(ask);
+    }
+    void is_done() {
+        const std::scoped_lock lock(mutex_);
+        running_ = nullptr;
+    }
+
+private:
+    void add(SessionAsk ask) {
+        const std::scoped_lock lock(mutex_);
+        const bool is_newer = ask.kind == AskKind::change && ask.sequence > newest_;
+        if (is_newer) newest_ = ask.sequence;
+        if (is_newer && running_ != nullptr) running_->cancel();
+        waiting_.emplace_back(std::move(ask), !is_newer);
+        come_.notify_one();
+    }
+
+    std::mutex mutex_;
+    std::condition_variable come_;
+    std::deque<std::pair<SessionAsk, bool>> waiting_;  ///< and whether it came too late
+    Progress* running_ = nullptr;                      ///< of the change that is being computed
+    std::uint64_t newest_ = 0;                         ///< sequence of all changes that have come
+};
+
+class Live {
+public:
+    Live(const WorkOrder& order, std::string model)
+        : request_(order.request),
+          options_(options_of(order)),
+          session_(std::move(model), options_, opening_) {}
+
+    [[nodiscard]] std::string answer(const SessionAsk& ask, Progress& progress) {
+        switch (ask.kind) {
+            case AskKind::change: return change(ask, progress);
+            case AskKind::state: return state();
+            case AskKind::request: return request_.empty() ? "{}" : request_;
+            case AskKind::surface: return write_surface_glb(session_.surface());
+            case AskKind::map:
+                return api::to_json(mapped(session_.map(), api::map_request_from_json(ask.text)));
+            case AskKind::compare:
+                return nlohmann::json{{"difference_mm", session_.difference_from_job(progress)}}
+                    .dump();
+        }
+        return {};
+    }
+    void settle() { session_.settle(); }
+    [[nodiscard]] std::string state() const {
+        api::SessionStep whole = step_;
+        whole.changed = Reach::model;
+        return api::session_json(session_, whole, version, request_.empty() ? "{}" : request_);
+    }
+
+private:
+    static FlattenOptions options_of(const WorkOrder& order) {
+        FlattenOptions options;
+        options.request = api::flatten_request_from_json(order.request).asked;
+        options.threads = static_cast<std::size_t>(order.threads);
+        return options;
+    }
+
+    [[nodiscard]] std::string change(const SessionAsk& ask, Progress& progress) {
+        std::string merged = api::merged_request(request_, ask.text);
+        try {
+            progress.check();
+            step_.changed = session_.change(api::flatten_request_from_json(merged).asked, progress);
+        } catch (const Error& error) {
+            if (error.code() == ErrorCode::canceled) refuse_superseded();
+            throw;
+        }
+        request_ = std::move(merged);
+        ++step_.revision;
+        step_.sequence = ask.sequence;
+        return ask.points ? api::session_points(session_, step_)
+                          : api::session_json(session_, step_, version);
+    }
+
+    std::string request_;
+    FlattenOptions options_;
+    Progress opening_{};
+    Session session_;
+    api::SessionStep step_{1, 0, Reach::model};
+};
+
+template <class Answer>
+bool answered(std::uint64_t number, const Answer& answer) {
+    try {
+        say({number, {}, answer()});
+        return true;
+    } catch (...) {
+        say({number, api::problem_of(std::current_exception()), {}});
+        return false;
+    }
+}
+
+}  // namespace
+
+void session_loop(const WorkOrder& order, std::string model) {
+    std::optional<Live> live;
+    const bool is_open = answered(0, [&] { return live.emplace(order, std::move(model)).state(); });
+    if (!is_open) std::_Exit(0);
+    Asks asks;
+    std::thread([&] { asks.read(); }).detach();
+    for (;;) {
+        Progress progress;
+        const SessionAsk ask = asks.next(progress);
+        (void)answered(ask.number, [&] { return live->answer(ask, progress); });
+        asks.is_done();
+        if (ask.kind == AskKind::change) live->settle();
+    }
+}
+
+}  // namespace lastflat::server
