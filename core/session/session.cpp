@@ -137,7 +137,11 @@ std::vector<SurfaceLine> Session::shown_lines(const State& state, const ShownApa
     std::vector<CurveSource> sources = asked.shown;
     std::stable_sort(sources.begin(), sources.end(),
                      [](const auto& a, const auto& b) { return turn(a.form) < turn(b.form); });
-    return locate_more_curves(model.search, model.surface, state.lines, sources, asked.points);
+    auto lines =
+        locate_more_curves(model.search, model.surface, state.lines, sources, asked.points);
+    std::sort(lines.begin(), lines.end(),
+              [](const SurfaceLine& a, const SurfaceLine& b) { return a.name < b.name; });
+    return lines;
 }
 
 void Session::show(State& state, const std::vector<SurfaceLine>& lines) {

@@ -31,6 +31,7 @@ public:
     void settle();
 
     [[nodiscard]] const FlattenResult& pattern() const;
+    /// In the order of their names.
     [[nodiscard]] const std::vector<ShownCurve>& curves() const;
     /// The surface without any curve in it: vertices of the file, welded.
     [[nodiscard]] const SurfaceMesh& surface() const;

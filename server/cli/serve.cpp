@@ -251,7 +251,7 @@ private:
         keys_,
         jobs_,
         tokens_,
-        {settings_.rate, settings_.session_rate, settings_.allowed_origins, settings_.listen.host}};
+        {settings_.rate, settings_.allowed_origins, settings_.listen.host, settings_.session_rate}};
     std::optional<Listener> main_, admin_;
 };
 

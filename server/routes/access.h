@@ -12,9 +12,9 @@ namespace lastflat::server {
 
 struct AccessRules {
     std::size_t rate = 6000;                   ///< requests of one key in a minute; 0: any number
-    std::size_t session_rate = 12'000;         ///< of those to live sessions, beside the others
     std::vector<std::string> allowed_origins;  ///< web pages that may call (CORS)
     std::string listen_host;                   ///< what the service may be asked as
+    std::size_t session_rate = 12'000;         ///< as `rate`, of those to one of its live sessions
 };
 
 /// Decides about every request before its body is read. With at least one key, every path under

@@ -86,12 +86,11 @@ std::uint64_t sequence_of(const Request& request) {
     return sequence;
 }
 
-std::string_view json_of(const Request& request, std::string_view other_type = {}) {
+std::string_view json_of(const Request& request, std::string_view other_type = "application/json") {
     if (request.body.size() != 1 || (request.body[0].media_type != "application/json" &&
                                      request.body[0].media_type != other_type))
         api::refuse("media_type_unsupported",
-                    "what is asked here is JSON: " +
-                        std::string(other_type.empty() ? "application/json" : other_type));
+                    "what is asked here is JSON: " + std::string(other_type));
     return request.body[0].bytes;
 }
 
@@ -119,6 +118,15 @@ Response map_points(const SessionServices& service, const Request& request) {
     return json_response(200, session_of(service, request).live->ask(std::move(ask)));
 }
 
+/// Nothing to compare with if a fresh start comes to no pattern.
+std::string comparison_of(LiveSession& live) {
+    try {
+        return live.ask({0, AskKind::compare});
+    } catch (const api::Refusal&) {
+        return R"({"difference_mm":null})";
+    }
+}
+
 /// What is asked now, as a job of its own; and how far that will be from what is shown.
 Response make_job(const SessionServices& service, const Request& request) {
     const SessionEntry entry = session_of(service, request);
@@ -129,20 +137,19 @@ Response make_job(const SessionServices& service, const Request& request) {
     submission.owner = request.principal;
     submission.tag = api::flatten_request_from_json(submission.request).tag;
     const JobRecord job = service.intake.submit(submission).job;
-    Response response = json_response(
-        202, api::session_job_json(service.view.of(job), entry.live->ask({0, AskKind::compare})));
+    Response response =
+        json_response(202, api::session_job_json(service.view.of(job), comparison_of(*entry.live)));
     response.headers.emplace_back("Location", "/v1/jobs/" + job.id);
     return response;
 }
 
 http::Route route(const SessionServices& service, const char* method, const char* under,
                   Response (*answer)(const SessionServices&, const Request&),
-                  std::vector<std::string> parameters = {}) {
-    const std::string_view name = method;
+                  bool takes_body = false, std::vector<std::string> parameters = {}) {
     return {method,
             std::string("/v1/sessions") + under,
             [service, answer](const Request& request) { return answer(service, request); },
-            name == "POST" || name == "PATCH",
+            takes_body,
             false,
             std::move(parameters)};
 }
@@ -150,13 +157,13 @@ http::Route route(const SessionServices& service, const char* method, const char
 }  // namespace
 
 std::vector<http::Route> session_routes(const SessionServices& service) {
-    return {route(service, "POST", "", open, {"asset_id"}),
+    return {route(service, "POST", "", open, true, {"asset_id"}),
             route(service, "GET", "", list),
             route(service, "GET", "/{id}", look),
-            route(service, "PATCH", "/{id}", change, {"sequence"}),
+            route(service, "PATCH", "/{id}", change, true, {"sequence"}),
             route(service, "DELETE", "/{id}", close),
             route(service, "GET", "/{id}/surface", surface),
-            route(service, "POST", "/{id}/map", map_points),
+            route(service, "POST", "/{id}/map", map_points, true),
             route(service, "POST", "/{id}/job", make_job)};
 }
 

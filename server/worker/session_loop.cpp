@@ -86,7 +86,7 @@ public:
     [[nodiscard]] std::string answer(const SessionAsk& ask, Progress& progress) {
         switch (ask.kind) {
             case AskKind::change: return change(ask, progress);
-            case AskKind::state: return state();
+            case AskKind::state: return state(ask.points);
             case AskKind::request: return request_.empty() ? "{}" : request_;
             case AskKind::surface: return write_surface_glb(session_.surface());
             case AskKind::map:
@@ -98,9 +98,10 @@ public:
         return {};
     }
     void settle() { session_.settle(); }
-    [[nodiscard]] std::string state() const {
+    [[nodiscard]] std::string state(bool points = false) const {
         api::SessionStep whole = step_;
         whole.changed = Reach::model;
+        if (points) return api::session_points(session_, whole);
         return api::session_json(session_, whole, version, request_.empty() ? "{}" : request_);
     }
 

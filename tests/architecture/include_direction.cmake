@@ -13,7 +13,7 @@ set(server_rooms
     "http: support api core"
     "jobs: support api"
     "storage: support jobs api"
-    "protocol: support jobs"
+    "protocol: support jobs api"
     "worker: support jobs protocol api core"
     "runner: support jobs protocol api"
     "webhooks: support jobs api"

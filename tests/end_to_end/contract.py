@@ -22,6 +22,7 @@ import tempfile
 from contract_check import TYPES, load_contract
 from contract_batches import walk_batches
 from contract_service import NO_ASSET, NO_JOB, Server, Walk, bumpy_disk, form, path_of, see_key_in_flight
+from contract_sessions import walk_session_limits, walk_sessions
 from contract_settings import walk_broken, walk_busy, walk_expiry, walk_keys, walk_room, walk_webhooks
 
 
@@ -49,7 +50,7 @@ def walk_http(walk):
         walk.ask(method, path, headers=[f"X-{i}: 1" for i in range(120)])
         walk.ask(method, path, query="?" + "a" * 9000)
         walk.ask(method, path, version="HTTP/3.0")
-        if method not in ("POST", "PUT") or path.endswith(("/cancel", "/test")):
+        if method not in ("POST", "PUT", "PATCH") or path.endswith(("/cancel", "/test", "/job")):
             walk.ask(method, path, headers=["Content-Length: 2", "Content-Type: text/plain"])
         waiting.append((method, path, walk.server.open(f"{method} {path_of(path, NO_JOB)} HTTP/1.1\r\n".encode())))
     for path in walk.contract.document["paths"]:
@@ -68,7 +69,7 @@ def walk_http(walk):
             walk.ask(method, path)
         if method != "OPTIONS":
             walk.expect(400, "parameter_unknown" if with_body else None, method, path, query="?pretty=1")
-        if method in ("POST", "PUT"):
+        if method in ("POST", "PUT", "PATCH"):
             walk.ask(method, path, headers=["Content-Encoding: gzip"], body=b"x")
     return waiting
 
@@ -299,6 +300,7 @@ def main():
         example = contract.document["components"]["schemas"]["JsonSubmission"]["examples"][0]
         finished = walk_submissions(walk, example)
         walk_more(walk, example)
+        walk_sessions(walk, example)
         walk_sample(walk, program)
         walk_waiting(walk, finished)
         for method, path, connection in waiting:
@@ -312,6 +314,7 @@ def main():
     walk_expiry(program, contract, example)
     walk_webhooks(program, contract, example)
     walk_batches(program, contract, example)
+    walk_session_limits(program, contract, example)
     walk_room(program, contract)
     walk_busy(program, contract)
     walk_broken(program, contract, example)

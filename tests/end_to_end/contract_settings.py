@@ -16,7 +16,7 @@ def walk_keys(program, contract, example):
     with tempfile.TemporaryDirectory() as folder:
         keys = [subprocess.run([program, "keys", "add", name, "--data", folder], check=True, capture_output=True,
                                text=True).stdout.strip() for name in ("one", "two", "three")]
-        server = Server(program, "--rate", "150", "--queue-per-key", "2", "--workers", "1", "--streams", "4", "--data", folder)
+        server = Server(program, "--rate", "170", "--session-rate", "10", "--queue-per-key", "2", "--workers", "1", "--streams", "4", "--data", folder)
         try:
             nobody = Walk(server, contract)
             one, two, three = (Walk(server, contract, ["Authorization: Bearer " + key]) for key in keys)
@@ -42,8 +42,10 @@ def walk_keys(program, contract, example):
                 stream.recv(100)
             one.expect(503, "streams_full", "GET", "/v1/jobs/{id}/events", id=waiting)
             two.post(slow)
-            for _ in range(160):
+            for _ in range(180):
                 three.ask("GET", "/v1/jobs/{id}")
+            for _ in range(12):
+                three.ask("GET", "/v1/sessions/{id}")
             for method, path, operation in contract.operations():
                 if "429" in operation["responses"]:
                     three.expect(429, "rate_exceeded" if method != "HEAD" else None, method, path)
@@ -145,6 +147,7 @@ def walk_room(program, contract):
         walk.expect(507, "storage_full", "POST", "/v1/jobs", body=b"v 0 0 0\n")
         walk.expect(507, "storage_full", "PUT", "/v1/jobs/{id}", id="0f8fad5b-d9cb-469f-a165-70867728950e", body=b"v 0 0 0\n")
         walk.expect(507, "storage_full", "POST", "/v1/assets", body=b"v 0 0 0\n")
+        walk.expect(507, "storage_full", "POST", "/v1/sessions", body=b"v 0 0 0\n")
     finally:
         server.stop()
 
@@ -162,7 +165,7 @@ def walk_expiry(program, contract, example):
         assert answer[1]["code"] == "result_expired", answer
         eventually(10, lambda: walk.ask("GET", "/v1/jobs/{id}", id=id), is_gone)
         for method, path, operation in contract.operations():
-            if "410" in operation["responses"]:
+            if "410" in operation["responses"] and path.startswith("/v1/jobs"):
                 walk.expect(410, "job_expired" if method != "HEAD" else None, method, path, id=id)
     finally:
         server.stop()
@@ -227,6 +230,7 @@ def walk_broken(program, contract, example):
             blob.write_bytes(bytes(blob.stat().st_size))
         to_map = {"id": id, "headers": ["Content-Type: application/json"], "body": b'{"to_last": {"region": "r", "points": [[0, 0]]}}'}
         special = {"POST /v1/jobs": submitted, "PUT /v1/jobs/{id}": {"id": own, **submitted}, "POST /v1/jobs/{id}/map": to_map,
+                   "POST /v1/sessions": {"query": "?asset_id=" + asset, "body": b""},
                    "POST /v1/validate": {"query": "?asset_id=" + asset, "body": b""}}
         for method, path, operation in contract.operations():
             if "500" in operation["responses"]:
