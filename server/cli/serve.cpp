@@ -147,6 +147,7 @@ public:
     void stop() {
         draining_ = true;
         sessions_.stop();
+        maps_.stop();
         runners_.stop(std::chrono::milliseconds(settings_.grace_ms));
         watch_.close(last_words);
         main_->stop();
@@ -164,7 +165,7 @@ private:
         };
         add({job_list_route(jobs_, view_, keys_.secret("cursor"))});
         add(job_routes({jobs_, control_, view_, wait_}));
-        add(result_routes({jobs_, blobs_, tasks_}));
+        add(result_routes({jobs_, blobs_, tasks_, maps_, seats_}));
         add({event_route({jobs_, blobs_, watch_, view_, seats_})});
         add(asset_routes({assets_, blobs_, jobs_, settings_.assets_per_key_mb,
                           settings_.storage_per_key_mb, settings_.min_free_mb}));
@@ -233,6 +234,7 @@ private:
     SeatsByKey seats_{settings_.streams};
     const TaskAnswers tasks_{
         seats_, run_tasks_in_workers(limits_, data_.work(), [this] { return watch_.is_closed(); })};
+    ResidentMaps maps_{limits_, data_.work()};
     LiveSessions sessions_{session_limits(settings_), data_.work()};
     const JobView view_{watch_, estimate_, settings_.workers};
     const JobWait wait_{jobs_, watch_, seats_, view_};

@@ -19,17 +19,17 @@ namespace lastflat::server {
 
 enum class Task {
     flatten,
-    inspect,    ///< only load and check
-    map,        ///< between last and pattern; the model is a result's OBJ
-    thumbnail,  ///< a picture as wide as `request` says; the model is a result's SVG
-    session     ///< until its input ends; its messages are others (`session_messages.h`)
+    inspect,      ///< only load and check
+    thumbnail,    ///< a picture as wide as `request` says; the model is a result's SVG
+    session,      ///< until its input ends; its messages are others (`session_messages.h`)
+    resident_map  ///< likewise; `map` alone is asked; the model is a result's OBJ
 };
 
 struct WorkOrder {
     Task task = Task::flatten;
     std::string model;    ///< path
     std::string digest;   ///< of the model
-    std::string request;  ///< constraint JSON, what to map, or a number
+    std::string request;  ///< constraint JSON, or a number
     std::string result;   ///< path of the file to write
     int threads = 1;
     int memory_mb = 0;    ///< 0: no limit

@@ -79,8 +79,14 @@ Response map_points(const ResultServices& service, const Request& request) {
     const JobRecord job = finished_job(service, request);
     if (request.body.size() != 1 || request.body[0].media_type != "application/json")
         api::refuse("media_type_unsupported", "what is to be mapped is JSON: application/json");
-    const std::string obj = result_bytes(service.blobs, job, result_part(job, "obj", false));
-    return json_response(200, service.tasks.report(request, Task::map, obj, request.body[0].bytes));
+    const ResultPart& obj = result_part(job, "obj", false);
+    const WaitingSeat seat(service.seats, request);
+    if (!seat.is_taken())
+        api::refuse("validations_full",
+                    "too many models and patterns are being looked at; try again later");
+    return json_response(200, service.maps.map(
+                                  obj.digest, [&] { return result_bytes(service.blobs, job, obj); },
+                                  std::string(request.body[0].bytes)));
 }
 
 int wanted_width(const Request& request) {

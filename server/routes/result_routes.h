@@ -4,6 +4,7 @@
 #include "server/jobs/blob_store.h"
 #include "server/jobs/job_store.h"
 #include "server/routes/task_answer.h"
+#include "server/runner/resident_maps.h"
 
 namespace lastflat::server {
 
@@ -12,6 +13,8 @@ struct ResultServices {
     JobStore& jobs;
     const BlobStore& blobs;
     const TaskAnswers& tasks;
+    ResidentMaps& maps;
+    SeatsByKey& seats;
 };
 
 [[nodiscard]] std::vector<http::Route> result_routes(const ResultServices& service);

@@ -53,8 +53,8 @@ Response open(const SessionServices& service, const Request& request) {
     check_room(service.blobs, service.min_free_mb);
     const WaitingSeat seat(service.seats, request);
     if (!seat.is_taken()) api::refuse("streams_full", "too many requests wait; try again later");
-    const auto [entry, state] =
-        service.sessions.open(request.principal, submission.model, submission.request);
+    const auto [entry, state] = service.sessions.open(request.principal, Task::session,
+                                                      submission.model, submission.request);
     Response response = json_response(201, api::to_json(view_of(service, entry), state));
     response.headers.emplace_back("Location", "/v1/sessions/" + entry.id);
     return response;

@@ -8,7 +8,7 @@ namespace lastflat::server {
 /// `blobs` must outlive what is returned.
 [[nodiscard]] RunJob run_jobs_in_workers(const ProcessLimits& limits, const BlobStore& blobs);
 
-/// A short task in a worker of its own: an inspection, a mapping, a picture.
+/// A short task in a worker of its own: an inspection, a picture.
 struct TaskCall {
     std::string owner;  ///< who asks for it
     Task task = Task::inspect;

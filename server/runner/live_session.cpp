@@ -19,7 +19,6 @@ constexpr std::size_t most_waiting = 16;
 constexpr int look_again_ms = 1000;
 
 WorkOrder limited(WorkOrder order, const ProcessLimits& limits) {
-    order.task = Task::session;
     order.memory_mb = limits.memory_mb;
     order.parent = ::getpid();
     return order;

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "api/refusal.h"
 #include "server/jobs/job.h"
 #include "server/runner/in_worker.h"
@@ -51,13 +53,14 @@ void LiveSessions::remove(const std::string& id) {
     entries_.erase(found);
 }
 
-std::pair<SessionEntry, std::string> LiveSessions::open(const std::string& owner,
+std::pair<SessionEntry, std::string> LiveSessions::open(const std::string& owner, Task task,
                                                         std::string_view model,
                                                         const std::string& request) {
     const std::string id = new_job_id();
     reserve(owner, id);
     try {
         WorkOrder order;
+        order.task = task;
         order.model = work_ / ("session-" + id);
         order.digest = sha256(model);
         order.request = request;
@@ -98,6 +101,19 @@ std::vector<SessionEntry> LiveSessions::list(const std::string& owner) {
 
 void LiveSessions::close(const std::string& owner, const std::string& id) {
     (void)find(owner, id);
+    remove(id);
+}
+
+void LiveSessions::close_least_used() {
+    std::string id;
+    {
+        const std::scoped_lock lock(mutex_);
+        if (entries_.size() < limits_.all) return;
+        const auto least = std::min_element(
+            entries_.begin(), entries_.end(),
+            [](const auto& a, const auto& b) { return a.second.used_ms < b.second.used_ms; });
+        id = least->first;
+    }
     remove(id);
 }
 

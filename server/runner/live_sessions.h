@@ -31,10 +31,11 @@ public:
     /// Ends all of them.
     ~LiveSessions();
 
-    /// Starts one. `opened` is called with what it opened with; if that fails, there is none.
+    /// Starts one, a session or a resident map; if it does not open, there is none. Returns what it
+    /// opened with, too.
     /// Throws: api::Refusal: 429, 503 if there are as many as may be; what the model or the request
     /// are refused with; StoreError.
-    [[nodiscard]] std::pair<SessionEntry, std::string> open(const std::string& owner,
+    [[nodiscard]] std::pair<SessionEntry, std::string> open(const std::string& owner, Task task,
                                                             std::string_view model,
                                                             const std::string& request);
     /// It counts as used. Throws: api::Refusal (404).
@@ -42,6 +43,8 @@ public:
     [[nodiscard]] std::vector<SessionEntry> list(const std::string& owner);
     /// Throws as `find`.
     void close(const std::string& owner, const std::string& id);
+    /// Makes room for one, if there is none: the one goes that was asked for longest ago.
+    void close_least_used();
     /// Ends all of them, and takes no more.
     void stop();
 

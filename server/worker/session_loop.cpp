@@ -147,21 +147,44 @@ bool answered(std::uint64_t number, const Answer& answer) {
     }
 }
 
-}  // namespace
-
-void session_loop(const WorkOrder& order, std::string model) {
-    std::optional<Live> live;
-    const bool is_open = answered(0, [&] { return live.emplace(order, std::move(model)).state(); });
-    if (!is_open) std::_Exit(0);
+/// `after`: what is done when nobody waits for it.
+template <class Answer, class After>
+[[noreturn]] void answer_asks(const Answer& answer, const After& after) {
     Asks asks;
     std::thread([&] { asks.read(); }).detach();
     for (;;) {
         Progress progress;
         const SessionAsk ask = asks.next(progress);
-        (void)answered(ask.number, [&] { return live->answer(ask, progress); });
+        (void)answered(ask.number, [&] { return answer(ask, progress); });
         asks.is_done();
-        if (ask.kind == AskKind::change) live->settle();
+        after(ask);
     }
+}
+
+}  // namespace
+
+void session_loop(const WorkOrder& order, std::string model) {
+    std::optional<Live> live;
+    if (!answered(0, [&] { return live.emplace(order, std::move(model)).state(); })) std::_Exit(0);
+    answer_asks(
+        [&](const SessionAsk& ask, Progress& progress) { return live->answer(ask, progress); },
+        [&](const SessionAsk& ask) {
+            if (ask.kind == AskKind::change) live->settle();
+        });
+}
+
+void map_loop(const std::string& flat_obj) {
+    std::optional<PatternMap> map;
+    const auto open = [&] {
+        map.emplace(read_flat_obj(flat_obj));
+        return std::string();
+    };
+    if (!answered(0, open)) std::_Exit(0);
+    answer_asks(
+        [&](const SessionAsk& ask, Progress& /*progress*/) {
+            return api::to_json(mapped(*map, api::map_request_from_json(ask.text)));
+        },
+        [](const SessionAsk& /*ask*/) {});
 }
 
 }  // namespace lastflat::server

@@ -13,4 +13,7 @@ namespace lastflat::server {
 /// computed when a newer comes. Ends the process.
 [[noreturn]] void session_loop(const WorkOrder& order, std::string model);
 
+/// The same of a pattern that is only mapped on. `flat_obj`: a result's.
+[[noreturn]] void map_loop(const std::string& flat_obj);
+
 }  // namespace lastflat::server

@@ -18,7 +18,6 @@
 #include "server/protocol/work_messages.h"
 #include "server/support/crypto.h"
 #include "server/support/files.h"
-#include "server/worker/map_job.h"
 #include "server/worker/run_job.h"
 #include "server/worker/session_loop.h"
 #include "server/worker/thumbnail.h"
@@ -27,7 +26,7 @@ namespace lastflat::server {
 namespace {
 
 /// Below the service: its answers come before our triangles; above jobs: somebody looks on.
-constexpr int niceness = 10, niceness_of_session = 5;
+constexpr int niceness = 10, niceness_to_look_on = 5;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool memory_can_be_limited = false;  // sanitizers map terabytes of shadow
@@ -55,8 +54,8 @@ void limit_self(const WorkOrder& order) {
         limit(RLIMIT_CPU, static_cast<std::uint64_t>(order.cpu_seconds), cpu_grace);
     if (order.memory_mb > 0 && memory_can_be_limited)
         limit(RLIMIT_DATA, static_cast<std::uint64_t>(order.memory_mb) << 20);
-    [[maybe_unused]] const int now =
-        nice(order.task == Task::session ? niceness_of_session : niceness);
+    const bool stays = order.task == Task::session || order.task == Task::resident_map;
+    [[maybe_unused]] const int now = nice(stays ? niceness_to_look_on : niceness);
 }
 
 void say(const WorkMessage& message) {
@@ -88,11 +87,7 @@ WorkMessage run_flatten(const WorkOrder& order, const JobInput& input) {
 
 WorkMessage work(const WorkOrder& order) {
     if (order.task == Task::session) session_loop(order, read_model(order));
-    if (order.task == Task::map) {
-        const auto request = api::map_request_from_json(order.request);
-        PatternMap map(read_flat_obj(read_model(order)));
-        return Report{api::to_json(mapped(map, request))};
-    }
+    if (order.task == Task::resident_map) map_loop(read_model(order));
     if (order.task == Task::thumbnail) {
         (void)read_model(order);  // it is what it was
         return Report{api::encode_base64(thumbnail(order.model, std::stoi(order.request)))};
