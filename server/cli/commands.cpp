@@ -1,6 +1,7 @@
 #include "server/cli/commands.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iostream>
 #include <thread>
@@ -58,7 +59,13 @@ std::string file_bytes(const fs::path& path, const std::string& what) {
                              : ": there is no such file" +
                                    api::suggestion(path.filename().string(), files_beside(path))));
     }
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    std::string bytes;
+    if (const auto size = fs::file_size(path, error); !error) bytes.reserve(size);  // else a pipe
+    std::array<char, 64u << 10> step;
+    while (file.read(step.data(), step.size()), file.gcount() > 0)
+        bytes.append(step.data(), static_cast<std::size_t>(file.gcount()));
+    if (file.bad()) api::refuse("file_unreadable", "cannot read all of " + what + path.string());
+    return bytes;
 }
 
 using Files = std::vector<std::pair<std::string, std::string_view>>;
