@@ -127,14 +127,14 @@ int flatten_command(const fs::path& model, const std::optional<fs::path>& reques
         input.options.threads = std::max(1u, std::thread::hardware_concurrency());
         Progress progress;
         const FlattenResult result = flatten(input.model, input.options, progress);
-        const JobOutput output = render(result, Compression::none);
-        const Files files{{"result.json", output.json.bytes},
-                          {"flat.obj", output.obj.bytes},
-                          {"flat.glb", output.glb.bytes},
-                          {"pattern.svg", output.svg.bytes}};
+        const JobOutput output = render(result);
+        const Files files{{"result.json", output.json},
+                          {"flat.obj", output.obj},
+                          {"flat.glb", output.glb},
+                          {"pattern.svg", output.svg}};
         write_files(directory, files);
         if (audience == Audience::programs) {
-            std::cout << output.metrics.bytes << std::endl;
+            std::cout << output.metrics << std::endl;
             return;
         }
         std::cout << api::to_table(result) << "written to " << directory.string() << ":";

@@ -55,7 +55,6 @@ struct BatchRecord {
 /// One format of a result: a part of the result's blob.
 struct ResultPart {
     std::string format;  ///< "json", "svg", "glb", "obj", "metrics"
-    bool gzip = false;
     std::uint64_t offset = 0, size = 0;
     std::string digest;  ///< SHA-256 of the part
 };

@@ -10,7 +10,6 @@ std::string to_json(const std::vector<ResultPart>& parts) {
     nlohmann::json json = nlohmann::json::array();
     for (const ResultPart& part : parts) {
         json.push_back({{"format", part.format},
-                        {"gzip", part.gzip},
                         {"offset", part.offset},
                         {"size", part.size},
                         {"digest", part.digest}});
@@ -28,15 +27,15 @@ std::vector<ResultPart> result_parts_of(std::string_view text) {
     std::vector<ResultPart> parts;
     if (text.empty()) return parts;
     for (const auto& part : nlohmann::json::parse(text)) {
-        parts.push_back({part.at("format"), part.at("gzip"), part.at("offset"), part.at("size"),
-                         part.at("digest")});
+        if (part.value("gzip", false)) continue;  // of a result of before: compressed a second time
+        parts.push_back({part.at("format"), part.at("offset"), part.at("size"), part.at("digest")});
     }
     return parts;
 }
 
-const ResultPart& result_part(const JobRecord& job, std::string_view format, bool gzip) {
+const ResultPart& result_part(const JobRecord& job, std::string_view format) {
     for (const ResultPart& part : job.parts) {
-        if (part.format == format && part.gzip == gzip) return part;
+        if (part.format == format) return part;
     }
     throw CorruptBlob("the result of " + job.id + " has no part " + std::string(format));
 }

@@ -20,8 +20,7 @@ namespace lastflat::server {
 [[nodiscard]] std::vector<ResultPart> result_parts_of(std::string_view text);
 
 /// Throws: CorruptBlob if there is no such part.
-[[nodiscard]] const ResultPart& result_part(const JobRecord& job, std::string_view format,
-                                            bool gzip);
+[[nodiscard]] const ResultPart& result_part(const JobRecord& job, std::string_view format);
 /// The bytes of one part of a job's result, checked against its digest.
 /// Throws: StoreError; CorruptBlob.
 [[nodiscard]] std::string result_bytes(const BlobStore& blobs, const JobRecord& job,

@@ -1,4 +1,4 @@
-// A result on the disk: every format, plain and compressed, one after the other in one file.
+// A result on the disk: every format, one after the other in one file.
 #pragma once
 
 #include <filesystem>
@@ -8,15 +8,10 @@
 
 namespace lastflat::server {
 
-struct Rendered {
-    std::string bytes;
-    std::string gzip;  ///< the same, compressed; empty unless asked for
-};
-
 /// A result in every format that it can be asked for.
 struct JobOutput {
-    Rendered json, svg, glb, obj;
-    Rendered metrics;  ///< the JSON without coordinates
+    std::string json, svg, glb, obj;
+    std::string metrics;  ///< the JSON without coordinates
 };
 
 /// Writes the file and returns its digest and parts; it is on the disk when the call returns.

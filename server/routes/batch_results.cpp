@@ -51,7 +51,7 @@ std::string table_of(const BatchResultServices& service, const std::vector<JobRe
     for (const JobRecord& job : jobs) {
         std::string metrics;
         with_result(service.view, job, errors, [&] {
-            metrics = result_bytes(service.blobs, job, result_part(job, "metrics", false));
+            metrics = result_bytes(service.blobs, job, result_part(job, "metrics"));
         });
         table.add(service.view.of(job), metrics);
     }
@@ -110,10 +110,10 @@ private:
         std::vector<std::pair<std::string, std::string>> parts;
         for (const auto& [word, format] : api::result_formats) {
             parts.emplace_back(folder + std::string(word_of(api::result_file_names, format)),
-                               result_bytes(service_.blobs, job, result_part(job, word, true)));
+                               result_bytes(service_.blobs, job, result_part(job, word)));
         }
         std::string files;
-        for (const auto& [name, bytes] : parts) files += zip_.entry(name, bytes);
+        for (const auto& [name, bytes] : parts) files += zip_.entry(name, gzip(bytes));
         return files;
     }
 
@@ -128,9 +128,7 @@ Response archive(const BatchResultServices& service, const Request& request) {
     const BatchRecord batch = finished_batch(service.view, request);
     std::vector<JobRecord> jobs = service.view.jobs_of(batch);
     std::uint64_t bytes = 0;
-    for (const JobRecord& job : jobs) {
-        for (const ResultPart& part : job.parts) bytes += part.gzip ? part.size : 0;
-    }
+    for (const JobRecord& job : jobs) bytes += size_of(job.parts);
     if (bytes > Zip::most_bytes)
         api::refuse("archive_too_large",
                     "the results together have more than 4 GiB; fetch them job by job");

@@ -54,8 +54,7 @@ private:
         if (job.state != JobState::succeeded || job.result.empty()) return {};
         std::vector<std::string> logs;
         try {
-            logs = api::log_events(
-                result_bytes(service_.blobs, job, result_part(job, "metrics", false)));
+            logs = api::log_events(result_bytes(service_.blobs, job, result_part(job, "metrics")));
         } catch (const api::Refusal& refusal) {  // as whoever asks for the result will be told
             logs = {api::log_event(refusal.problem())};
         }

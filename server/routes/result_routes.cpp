@@ -8,6 +8,7 @@
 #include "server/jobs/result_parts.h"
 #include "server/routes/answers.h"
 #include "server/routes/result_format.h"
+#include "server/support/gzip.h"
 
 namespace lastflat::server {
 namespace {
@@ -50,19 +51,21 @@ void cut_to_range(const Request& request, const std::string& etag, Response& res
 Response part_response(const ResultServices& service, const Request& request, const JobRecord& job,
                        std::string_view format, const std::string& type,
                        const std::string& file_name) {
-    const bool gzip = accepts_gzip(request) && request.header("range").empty();
-    const ResultPart& part = result_part(job, format, gzip);
-    const std::string etag = "\"" + part.digest.substr(0, 32) + "\"";
+    const bool packed = accepts_gzip(request) && request.header("range").empty();
+    const ResultPart& part = result_part(job, format);
+    const std::string etag = "\"" + part.digest.substr(0, 32) + (packed ? "-gzip\"" : "\"");
     Response response;
     response.media_type = type;
     response.headers.emplace_back("Vary", "Accept, Accept-Encoding");
     response.headers.emplace_back("Cache-Control", "private, no-cache");
     response.headers.emplace_back("Accept-Ranges", "bytes");
-    if (gzip) response.headers.emplace_back("Content-Encoding", "gzip");
+    if (packed) response.headers.emplace_back("Content-Encoding", "gzip");
     response.headers.emplace_back("Content-Disposition", "inline; filename=\"" + file_name + "\"");
     if (has_already(request, etag)) return tagged(request, etag, std::move(response));
-    response.body = std::make_shared<const std::string>(result_bytes(service.blobs, job, part));
-    if (!gzip) cut_to_range(request, etag, response);
+    std::string bytes = result_bytes(service.blobs, job, part);
+    if (packed) bytes = gzip(bytes);
+    response.body = std::make_shared<const std::string>(std::move(bytes));
+    if (!packed) cut_to_range(request, etag, response);
     response.headers.emplace_back("ETag", etag);
     return response;
 }
@@ -79,7 +82,7 @@ Response map_points(const ResultServices& service, const Request& request) {
     const JobRecord job = finished_job(service, request);
     if (request.body.size() != 1 || request.body[0].media_type != "application/json")
         api::refuse("media_type_unsupported", "what is to be mapped is JSON: application/json");
-    const ResultPart& obj = result_part(job, "obj", false);
+    const ResultPart& obj = result_part(job, "obj");
     const WaitingSeat seat(service.seats, request);
     if (!seat.is_taken())
         api::refuse("validations_full",
@@ -107,7 +110,7 @@ int wanted_width(const Request& request) {
 Response picture(const ResultServices& service, const Request& request) {
     const JobRecord job = finished_job(service, request);
     const std::string width = std::to_string(wanted_width(request));
-    const ResultPart& svg = result_part(job, "svg", false);
+    const ResultPart& svg = result_part(job, "svg");
     const std::string etag = "\"" + svg.digest.substr(0, 32) + "-" + width + "\"";
     Response response;
     response.media_type = "image/png";

@@ -15,8 +15,8 @@ Response finished_response(const SubmitServices& service, const JobRecord& job) 
     const api::Job view = service.view.of(job);
     if (job.state != JobState::succeeded || job.result.empty())
         return json_response(200, to_json(view));
-    return json_response(
-        200, to_json(view, result_bytes(service.blobs, job, result_part(job, "json", false))));
+    return json_response(200,
+                         to_json(view, result_bytes(service.blobs, job, result_part(job, "json"))));
 }
 
 Response submitted_response(const SubmitServices& service, const Request& request,

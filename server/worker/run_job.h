@@ -13,11 +13,9 @@ struct JobInput {
     FlattenOptions options;
 };
 
-enum class Compression { none, gzip };
-
-[[nodiscard]] JobOutput render(const FlattenResult& result, Compression compression);
+[[nodiscard]] JobOutput render(const FlattenResult& result);
 
 /// Throws: Error.
-[[nodiscard]] JobOutput run_job(const JobInput& input, Compression compression, Progress& progress);
+[[nodiscard]] JobOutput run_job(const JobInput& input, Progress& progress);
 
 }  // namespace lastflat::server

@@ -76,7 +76,7 @@ WorkMessage run_flatten(const WorkOrder& order, const JobInput& input) {
     Progress progress([](Stage stage, double fraction) {
         say(StageReached{std::string(name(stage)), fraction});
     });
-    const JobOutput output = run_job(input, Compression::gzip, progress);
+    const JobOutput output = run_job(input, progress);
     try {
         return write_result_pack(output, order.result);
     } catch (const StoreError& error) {

@@ -7,6 +7,7 @@ content type declared, body as its schema says.
 Without python3-jsonschema it says so and ends with 77 (skipped).
 """
 
+import gzip
 import json
 import pathlib
 import re
@@ -89,6 +90,8 @@ class Contract:
             if body:
                 self.complain(where, f"a body that is not declared: {body[:200]!r}")
             return headers
+        if headers.get("content-encoding") == "gzip":
+            body = gzip.decompress(body)
         media_type = headers.get("content-type", "").split(";")[0]
         if media_type not in content:
             return self.complain(where, f"the content type {media_type!r} is not declared")

@@ -70,3 +70,17 @@ assert_given() {
     ask -I -H 'Accept: text/html' "$url$job/result"
     assert_equal "$status" 406
 }
+
+@test "who takes gzip gets it, with a tag of its own" {
+    for format in json svg glb obj; do
+        ask "$url$job/result?format=$format"
+        cp "$body" "$BATS_TEST_TMPDIR/plain"
+        tag=$(header ETag)
+        ask -H 'Accept-Encoding: gzip' "$url$job/result?format=$format"
+        assert_equal "$status $(header Content-Encoding)" "200 gzip"
+        [[ $(header ETag) != "$tag" ]]
+        gunzip -c < "$body" | cmp - "$BATS_TEST_TMPDIR/plain"
+        ask -H 'Accept-Encoding: gzip' -H "If-None-Match: $(header ETag)" "$url$job/result?format=$format"
+        assert_equal "$status" 304
+    done
+}

@@ -109,7 +109,7 @@ std::int64_t last_id(const std::string& stream) {
 
 /// A result that says no more than its metrics.
 JobEnd result_with(const BlobStore& blobs, const std::string& metrics) {
-    return Succeeded{blobs.put(metrics), {{"metrics", false, 0, metrics.size(), sha256(metrics)}}};
+    return Succeeded{blobs.put(metrics), {{"metrics", 0, metrics.size(), sha256(metrics)}}};
 }
 
 constexpr char quiet_metrics[] = R"({"repairs": [], "warnings": []})";

@@ -20,7 +20,7 @@ inline NewJob new_job(const std::string& id, const std::string& owner = "") {
 }
 
 inline Succeeded success(const std::string& result = "result") {
-    return {result, {{"json", false, 0, 4, "digest"}}};
+    return {result, {{"json", 0, 4, "digest"}}};
 }
 
 inline Failed failure() {

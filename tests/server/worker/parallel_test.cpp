@@ -13,31 +13,31 @@ TEST_SUITE("server/worker/parallel") {
         const SampleLast last = make_sample_last();
         JobInput input{write_model_obj(last.mesh), test::sample_options(last)};
         Progress progress;
-        const auto expected = run_job(input, Compression::none, progress);
+        const auto expected = run_job(input, progress);
         input.options.threads = 2;
         std::array<JobOutput, 3> outputs;
         std::vector<std::thread> threads;
         for (JobOutput& output : outputs) {
             threads.emplace_back([&] {
                 Progress own;
-                output = run_job(input, Compression::gzip, own);
+                output = run_job(input, own);
             });
         }
         for (std::thread& thread : threads) thread.join();
         for (const JobOutput& output : outputs) {
-            CHECK(output.svg.bytes == expected.svg.bytes);
+            CHECK(output.svg == expected.svg);
         }
     }
 
     TEST_CASE("a bare last is the same on two threads as on one") {
         JobInput input{write_model_obj(make_sample_last().mesh), {}};
         Progress progress;
-        const auto expected = run_job(input, Compression::none, progress);
+        const auto expected = run_job(input, progress);
         input.options.threads = 2;
         Progress again;
-        const auto output = run_job(input, Compression::none, again);
-        CHECK(output.svg.bytes == expected.svg.bytes);
-        CHECK(output.obj.bytes == expected.obj.bytes);
+        const auto output = run_job(input, again);
+        CHECK(output.svg == expected.svg);
+        CHECK(output.obj == expected.obj);
     }
 }
 
