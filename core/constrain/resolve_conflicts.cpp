@@ -96,9 +96,12 @@ public:
         ConstrainedChart result{
             minimise_distortion_again(problem, iterate, system, progress_), {}, {}};
         if (!kept(result.minimum) || !result.minimum.converged) return std::nullopt;
-        *left_ = {problem.rows,
-                  {domain_.coordinates(result.minimum.charts), result.minimum.multipliers},
-                  std::move(system)};
+        left_->rows = problem.rows;
+        left_->iterate = {domain_.coordinates(result.minimum.charts), result.minimum.multipliers};
+        if (&system == &other) {  // of another pattern
+            left_->system = std::move(other);
+            left_->spare = {};
+        }
         return result;
     }
 
@@ -108,7 +111,8 @@ public:
         Iterate& iterate = left_->iterate;
         const ActiveSet active(problem.rows, values_of(problem.rows, iterate.x),
                                iterate.multipliers);
-        (void)left_->system.factor_exact(problem, iterate, active.held, progress_);
+        if (left_->spare.factor_exact(problem, iterate, active.held, progress_))
+            std::swap(left_->system, left_->spare);
     }
 
 private:

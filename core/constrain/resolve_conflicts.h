@@ -54,7 +54,7 @@ struct Demands {
 
 /// Makes the factor anew where the solve with these demands ended: the next one then begins with
 /// the best that there is.
-/// Throws: Error{canceled}; the warmth is then without a factor.
+/// Throws: Error{canceled}; the warmth then has the factor that it had.
 void refresh(const Domain& domain, const Demands& demands, std::size_t threads,
              const Progress& progress, Warmth& warmth);
 

@@ -11,6 +11,7 @@ struct Warmth {
     std::vector<Row> rows;
     Iterate iterate;
     OptimalitySystem system;
+    OptimalitySystem spare{};  ///< where `refresh` makes the next factor
 
     [[nodiscard]] bool is_empty() const { return iterate.x.size() == 0; }
 };

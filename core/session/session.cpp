@@ -237,10 +237,10 @@ Reach Session::change(const Request& request, Progress& progress) {
     return reach;
 }
 
-void Session::settle() {
+void Session::settle(const Progress& progress) {
     if (is_settled_) return;
+    refresh(state_->prepared, options_, progress, state_->warm);
     is_settled_ = true;
-    refresh(state_->prepared, options_, Progress(), state_->warm);
 }
 
 double Session::difference_from_job(Progress& progress) const {

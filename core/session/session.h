@@ -28,7 +28,8 @@ public:
     Reach change(const Request& request, Progress& progress);
 
     /// For when nobody waits: makes the next change quick. Nothing to be done is nothing done.
-    void settle();
+    /// Throws: Error{canceled}; nothing is lost.
+    void settle(const Progress& progress);
 
     [[nodiscard]] const FlattenResult& pattern() const;
     /// In the order of their names.

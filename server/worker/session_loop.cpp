@@ -59,12 +59,27 @@ public:
         running_ = nullptr;
     }
 
+    /// Calls `work` with what cancels it as soon as anything is asked.
+    template <class Work>
+    void while_idle(const Work& work) {
+        Progress idle;
+        {
+            const std::scoped_lock lock(mutex_);
+            if (!waiting_.empty()) return;
+            idle_ = &idle;
+        }
+        work(idle);
+        const std::scoped_lock lock(mutex_);
+        idle_ = nullptr;
+    }
+
 private:
     void add(SessionAsk ask) {
         const std::scoped_lock lock(mutex_);
         const bool is_newer = ask.kind == AskKind::change && ask.sequence > newest_;
         if (is_newer) newest_ = ask.sequence;
         if (is_newer && running_ != nullptr) running_->cancel();
+        if (idle_ != nullptr) idle_->cancel();
         waiting_.emplace_back(std::move(ask), !is_newer);
         come_.notify_one();
     }
@@ -73,6 +88,7 @@ private:
     std::condition_variable come_;
     std::deque<std::pair<SessionAsk, bool>> waiting_;  ///< and whether it came too late
     Progress* running_ = nullptr;                      ///< of the change that is being computed
+    Progress* idle_ = nullptr;                         ///< of what is done while nobody asks
     std::uint64_t newest_ = 0;                         ///< sequence of all changes that have come
 };
 
@@ -97,7 +113,15 @@ public:
         }
         return {};
     }
-    void settle() { session_.settle(); }
+    /// Until somebody asks, or memory ends: it is a convenience.
+    void settle(const Progress& progress) {
+        try {
+            session_.settle(progress);
+        } catch (const Error& error) {
+            if (error.code() != ErrorCode::canceled) throw;
+        } catch (const std::bad_alloc&) {
+        }
+    }
     [[nodiscard]] std::string state(bool points = false) const {
         api::SessionStep whole = step_;
         whole.changed = Reach::model;
@@ -147,9 +171,9 @@ bool answered(std::uint64_t number, const Answer& answer) {
     }
 }
 
-/// `after`: what is done when nobody waits for it.
-template <class Answer, class After>
-[[noreturn]] void answer_asks(const Answer& answer, const After& after) {
+/// `idle`: what is done when nobody asks.
+template <class Answer, class Idle>
+[[noreturn]] void answer_asks(const Answer& answer, const Idle& idle) {
     Asks asks;
     std::thread([&] { asks.read(); }).detach();
     for (;;) {
@@ -157,7 +181,7 @@ template <class Answer, class After>
         const SessionAsk ask = asks.next(progress);
         (void)answered(ask.number, [&] { return answer(ask, progress); });
         asks.is_done();
-        after(ask);
+        asks.while_idle(idle);
     }
 }
 
@@ -168,9 +192,7 @@ void session_loop(const WorkOrder& order, std::string model) {
     if (!answered(0, [&] { return live.emplace(order, std::move(model)).state(); })) std::_Exit(0);
     answer_asks(
         [&](const SessionAsk& ask, Progress& progress) { return live->answer(ask, progress); },
-        [&](const SessionAsk& ask) {
-            if (ask.kind == AskKind::change) live->settle();
-        });
+        [&](const Progress& progress) { live->settle(progress); });
 }
 
 void map_loop(const std::string& flat_obj) {
@@ -184,7 +206,7 @@ void map_loop(const std::string& flat_obj) {
         [&](const SessionAsk& ask, Progress& /*progress*/) {
             return api::to_json(mapped(*map, api::map_request_from_json(ask.text)));
         },
-        [](const SessionAsk& /*ask*/) {});
+        [](const Progress& /*progress*/) {});
 }
 
 }  // namespace lastflat::server

@@ -83,6 +83,31 @@ TEST_SUITE("core/session") {
         CHECK(opened.session.pattern().constraints.size() == 6);
     }
 
+    TEST_CASE("once it has settled, the next change is as near as with a factor of its own") {
+        Opened opened;
+        auto& constraints = opened.options.request.constraints;
+        const std::size_t border = opened.lateral().region.border.size();
+        for (const std::size_t share : {1u, 3u})
+            constraints.push_back(pin(opened.session.pattern(), border * share / 8));
+        opened.change();
+        int unsettled = 0, settled = 0, canceled_ones = 0;
+        Progress canceled;
+        canceled.cancel();
+        for (int step = 0; step < 6; ++step) {
+            std::get<Pin>(constraints.back().demand).at += Vec2(0.0, 0.4);
+            opened.change();
+            (step < 3 ? unsettled : settled) += opened.lateral().iterations;
+            if (step < 2) continue;
+            const auto end = test::error_of([&] { opened.session.settle(canceled); });
+            canceled_ones += test::has(end, "canceled") ? 1 : 0;
+            opened.session.settle(opened.progress);
+            opened.session.settle(canceled);  // there is nothing left to be done
+        }
+        CHECK(settled <= unsettled);
+        CHECK(canceled_ones > 0);
+        CHECK(opened.session.difference_from_job(opened.progress) < 1e-5);
+    }
+
     TEST_CASE("locks come and go, weights change, and the optimum is that of a job") {
         Opened opened;
         Request& request = opened.options.request;
