@@ -64,7 +64,8 @@ Minimum minimise_distortion(const Problem& approach, const Problem& problem,
 
 Minimum minimise_distortion_again(const Problem& problem, const Iterate& from,
                                   OptimalitySystem& system, const Progress& progress) {
-    return minimise(problem, {moved_to_pins(problem, from.x), from.multipliers}, {}, system,
+    const Approach near{0.0, 0.0, tolerance::live_gradient, tolerance::live_length};
+    return minimise(problem, {moved_to_pins(problem, from.x), from.multipliers}, near, system,
                     progress);
 }
 

@@ -44,6 +44,10 @@ inline constexpr double solver_length = 1e-10;
 /// Newton's method has converged when the projected gradient (see `Minimum`) is below this; its
 /// round-off is about 1e-14.
 inline constexpr double projected_gradient = 1e-9;
+/// In a live session somebody waits for the last steps, and sees nothing of them: with these left a
+/// point is within 1e-5 mm of its place, and a locked length still a hundred times as near as
+/// asked.
+inline constexpr double live_gradient = 1e-8, live_length = 1e-8;
 /// Where no step lowers the energy any more round-off hides the rest (needles, circles shrunk to
 /// points); above this it was not round-off.
 inline constexpr double stalled_gradient = 1e-7;

@@ -61,9 +61,9 @@ State evaluated(const Problem& problem, const ActiveSet& active, Iterate iterate
     return {std::move(iterate), std::move(is)};
 }
 
-bool is_optimal(const ActiveSet& active, const Evaluation& is) {
-    return !active.undecided && is.projected_gradient <= tolerance::projected_gradient &&
-           is.worst_error <= tolerance::solver_length;
+bool is_optimal(const Approach& approach, const ActiveSet& active, const Evaluation& is) {
+    return !active.undecided && is.projected_gradient <= approach.projected_gradient &&
+           is.worst_error <= approach.error;
 }
 
 /// The energies, and what the rows' errors cost: a soft one's what it costs indeed.
@@ -192,10 +192,10 @@ std::optional<State> stepped_to_conditions(const Problem& problem, const Optimal
 }
 
 /// As many of them as do: the matrix has hardly changed (the chord method). Whether the first did.
-bool reuse_factor(const Problem& problem, const OptimalitySystem& system, const ActiveSet& active,
-                  double much, State& state, int& iterations) {
+bool reuse_factor(const Problem& problem, const Approach& approach, const OptimalitySystem& system,
+                  const ActiveSet& active, double much, State& state, int& iterations) {
     bool any = false;
-    while (!is_optimal(active, state.is)) {
+    while (!is_optimal(approach, active, state.is)) {
         auto next = stepped_to_conditions(problem, system, active, state, much);
         if (!next) break;
         state = std::move(*next);
@@ -209,14 +209,15 @@ bool reuse_factor(const Problem& problem, const OptimalitySystem& system, const 
 /// by much: no line search, and the sign of the curvature does not matter. A curve of fixed length
 /// under compression whose edges are short would rather fold up like a concertina; these steps keep
 /// to the smooth curve.
-State solve_conditions(const Problem& problem, OptimalitySystem& system, const ActiveSet& active,
-                       State state, int& iterations, const Progress& progress) {
+State solve_conditions(const Problem& problem, const Approach& approach, OptimalitySystem& system,
+                       const ActiveSet& active, State state, int& iterations,
+                       const Progress& progress) {
     constexpr double much = 0.1;
-    (void)reuse_factor(problem, system, active, much, state, iterations);
-    while (!is_optimal(active, state.is)) {
+    (void)reuse_factor(problem, approach, system, active, much, state, iterations);
+    while (!is_optimal(approach, active, state.is)) {
         progress.check();
         if (!system.factor_exact(problem, state.iterate, active.held, progress) ||
-            !reuse_factor(problem, system, active, much, state, iterations))
+            !reuse_factor(problem, approach, system, active, much, state, iterations))
             break;
     }
     return state;
@@ -303,7 +304,7 @@ End run(const Problem& problem, const Approach& approach, OptimalitySystem& syst
     state = evaluated(problem, active, std::move(state.iterate));
     constexpr double worth_a_solve = 0.4;  // a new factor costs as much as several of them
     if (system.is_factored_with(active.held))
-        (void)reuse_factor(problem, system, active, worth_a_solve, state, iterations);
+        (void)reuse_factor(problem, approach, system, active, worth_a_solve, state, iterations);
     Momentum momentum{state.is.energy < near_isometry * area};
     ErrorWatch watch;
     SlideWatch slide;
@@ -312,7 +313,7 @@ End run(const Problem& problem, const Approach& approach, OptimalitySystem& syst
         if (state.is.energy < approach.enough * area) return End::converged;
         if (active.update(rows, state.is.values, state.iterate.multipliers))
             state = evaluated(problem, active, std::move(state.iterate));
-        if (is_optimal(active, state.is)) return End::converged;
+        if (is_optimal(approach, active, state.is)) return End::converged;
         progress.check();
         ++iterations;
         Step step = take_step(problem, system, active, state, momentum, progress);
@@ -326,8 +327,8 @@ End run(const Problem& problem, const Approach& approach, OptimalitySystem& syst
         if (contradicts) return End::contradictory;
         if (slides) return End::given_up;
         if (step.length == 1.0 && state.is.distance_to_optimum() <= tolerance::nearly_optimal)
-            state =
-                solve_conditions(problem, system, active, std::move(state), iterations, progress);
+            state = solve_conditions(problem, approach, system, active, std::move(state),
+                                     iterations, progress);
         if (step.length > 0.0) continue;
         // No part of the step could be taken: rows that it would have broken may be what it lacks.
         if (active.hold_violated(rows, values_of(rows, state.iterate.x + step.direction))) continue;

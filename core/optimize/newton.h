@@ -1,6 +1,7 @@
 // Least energy under rows.
 #pragma once
 
+#include "core/numerics/tolerances.h"
 #include "core/optimize/optimality_system.h"
 #include "core/parameterize/chart.h"
 
@@ -13,6 +14,8 @@ inline constexpr double near_isometry = 1.05;
 struct Approach {
     double enough = 0.0;    ///< mean density below which it does
     double decrease = 0.0;  ///< share of the distortion below which a step promises too little
+    /// At most so much is left of the first-order conditions, see `Minimum`.
+    double projected_gradient = tolerance::projected_gradient, error = tolerance::solver_length;
 };
 
 struct Minimum {
@@ -37,12 +40,11 @@ struct Minimum {
 /// In:     coordinates at which the energy is finite, with a multiplier per row: zero, or what a
 ///         search before has left; a new system, or one that a problem of the same pattern has
 ///         left: as long as its factor leads nearer, no other is made.
-/// Out:    charts without flipped triangles. Converged: the projected gradient is at most
-///         `tolerance::projected_gradient` and every error at most `tolerance::solver_length`; or
-///         no step lowers the energy and the gradient is at most `tolerance::stalled_gradient` or
-///         what the rounding of the coordinates makes of it (needles), errors likewise; or the
-///         approach has come near enough. One answer for one input, whatever the number of
-///         threads.
+/// Out:    charts without flipped triangles. Converged: projected gradient and errors are at most
+///         the approach's; or no step lowers the energy and the gradient is at most
+///         `tolerance::stalled_gradient` or what the rounding of the coordinates makes of it
+///         (needles), errors likewise; or the approach has come near enough. One answer for one
+///         input, whatever the number of threads.
 /// Throws: Error{solver_failed}; Error{canceled}.
 [[nodiscard]] Minimum minimise(const Problem& problem, const Iterate& start,
                                const Approach& approach, OptimalitySystem& system,

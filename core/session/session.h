@@ -15,8 +15,9 @@ namespace lastflat {
 /// followed on it and mapped.
 ///
 /// A change does only what it reaches. One of the pattern begins at the optimum before, with its
-/// multipliers and its last factor; one of the regions at the charts before, carried over. Without
-/// contact the optimum is the one that a job finds; with contact it may be another.
+/// multipliers and its last factor, and ends within 1e-5 mm of the optimum; one of the regions at
+/// the charts before, carried over. Without contact the optimum is the one that a job finds; with
+/// contact it may be another.
 class Session {
 public:
     /// Does all that `flatten` does. Throws: Error, as that does.
