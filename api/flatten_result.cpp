@@ -135,8 +135,9 @@ std::string region_text(const FlattenResult& result, const FlatRegion& flat, Det
     if (flat.fan && tells_fan(result.plan.request)) json["fan"] = fan_json(flat, result.sources);
     std::string text = text_of(json);
     text.pop_back();
+    text += "," + chart_text(flat);
     if (detail == Detail::whole) text += "," + mesh_text(flat, result.sources);
-    return text + "," + chart_text(flat) + "}";
+    return text + "," + outline_text(flat) + "}";
 }
 
 Json layout_json(const FlattenResult& result) {

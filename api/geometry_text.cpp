@@ -149,7 +149,11 @@ std::string coordinates_text(const Points3& points) {
 }
 
 std::string chart_text(const FlatRegion& flat) {
-    std::string text = "\"uv_mm\":" + coordinates_text(flat.chart.uv) + ",\"outline\":";
+    return "\"uv_mm\":" + coordinates_text(flat.chart.uv);
+}
+
+std::string outline_text(const FlatRegion& flat) {
+    std::string text = "\"outline\":";
     append(text, flat.outline);
     text += ",\"holes\":";
     append(text, flat.outline.holes);

@@ -10,8 +10,9 @@ namespace lastflat::api {
 /// Members of a region's object: `triangles` and the ways back to the model.
 [[nodiscard]] std::string mesh_text(const FlatRegion& flat, const SourceIds& sources);
 
-/// The others: `uv_mm` and outlines.
+/// Its `uv_mm`; its outlines.
 [[nodiscard]] std::string chart_text(const FlatRegion& flat);
+[[nodiscard]] std::string outline_text(const FlatRegion& flat);
 
 /// Coordinates as lists in a list, in text.
 [[nodiscard]] std::string coordinates_text(const Points2& points);
