@@ -13,8 +13,8 @@ namespace lastflat {
 ///         starts without flipped triangles; with terms that keep borders from crossing, none may
 ///         cross.
 /// Out:    `system`: a new one, left as it was at the end; the rest as `minimise`; its steps and
-/// those of the approach are counted together. From any start
-///         the same optimum is reached, as long as no border comes into contact.
+///         those of the approach are counted together. From any start the same optimum is reached,
+///         as long as no border comes into contact.
 /// Throws: Error{method_failed} if a start is folded; others as `minimise`.
 [[nodiscard]] Minimum minimise_distortion(const Problem& approach, const Problem& problem,
                                           const std::vector<Chart>& starts,

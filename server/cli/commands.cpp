@@ -15,7 +15,7 @@
 #include "api/sample_request.h"
 #include "core/export/write_model.h"
 #include "core/inspect.h"
-#include "server/worker/map_job.h"
+#include "server/worker/map_points.h"
 #include "server/worker/run_job.h"
 
 namespace lastflat::server {

@@ -1,5 +1,6 @@
 #include "server/protocol/session_messages.h"
 
+#include <istream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -14,19 +15,24 @@ constexpr std::size_t longest_body = 1u << 30;
 
 }  // namespace
 
-std::string to_line(const SessionAsk& ask) {
+std::string to_bytes(const SessionAsk& ask) {
     const Json json{{"number", ask.number},
                     {"kind", ask.kind},
                     {"sequence", ask.sequence},
                     {"points", ask.points},
-                    {"text", ask.text}};
-    return json.dump(-1, ' ', true) + "\n";
+                    {"bytes", ask.text.size()}};
+    return json.dump() + "\n" + ask.text;
 }
 
-SessionAsk session_ask_of(std::string_view line) {
+std::optional<SessionAsk> read_session_ask(std::istream& from) {
+    std::string line;
+    if (!std::getline(from, line)) return std::nullopt;
     const auto json = Json::parse(line);
-    return {json.at("number"), json.at("kind"), json.at("sequence"), json.at("points"),
-            json.at("text")};
+    SessionAsk ask{json.at("number"), json.at("kind"), json.at("sequence"), json.at("points")};
+    ask.text.resize(json.at("bytes"));
+    if (!from.read(ask.text.data(), static_cast<std::streamsize>(ask.text.size())))
+        return std::nullopt;
+    return ask;
 }
 
 std::string to_bytes(const SessionAnswer& answer) {

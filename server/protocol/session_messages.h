@@ -1,15 +1,14 @@
-// What the service and the worker of a live session say to each other, after its order: one ask a
-// line; of every answer one line, and its body behind it.
+// What the service and the worker of a live session say to each other, after its order: of every
+// ask and every answer a line, and its bytes behind it as they are, whatever they are.
 //
-//   service -> worker   {"number": 7, "kind": "change", "sequence": 41, "points": true, "text":
-//   ...} worker -> service   {"number": 7, "bytes": 81234}           and so many bytes
-//                       {"number": 7, "problem": {...}}
+//   service -> worker   {"number": 7, "kind": 0, "sequence": 41, "points": true, "bytes": 512}
+//   worker -> service   {"number": 7, "bytes": 81234}   or   {"number": 7, "problem": {...}}
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "api/problem.h"
 
@@ -38,9 +37,10 @@ struct SessionAnswer {
     std::string body{};
 };
 
-[[nodiscard]] std::string to_line(const SessionAsk& ask);
-/// Throws: nlohmann::json::exception.
-[[nodiscard]] SessionAsk session_ask_of(std::string_view line);
+/// The line and, behind it, the text.
+[[nodiscard]] std::string to_bytes(const SessionAsk& ask);
+/// Waits for the next ask; nothing at the end. Throws: nlohmann::json::exception.
+[[nodiscard]] std::optional<SessionAsk> read_session_ask(std::istream& from);
 
 /// The line and, behind it, the body.
 [[nodiscard]] std::string to_bytes(const SessionAnswer& answer);

@@ -41,15 +41,8 @@ Response bytes_response(std::string_view media_type, std::string body) {
 
 /// Opening takes as long as a job; the seat is for that.
 Response open(const SessionServices& service, const Request& request) {
-    Submission submission = read_submission(request);
+    Submission submission = read_submission_with_model(request, service.assets, service.blobs);
     if (submission.webhook) throw api::InvalidRequest("/webhook", "a session sends no messages");
-    if (!submission.asset.empty()) {
-        if (!service.assets.find(request.principal, submission.asset))
-            throw api::Refusal("asset_not_found",
-                               "there is no asset " + submission.asset.substr(0, 80))
-                .in_content();
-        submission.make_model(service.blobs.read(submission.asset));
-    }
     check_room(service.blobs, service.min_free_mb);
     const WaitingSeat seat(service.seats, request);
     if (!seat.is_taken()) api::refuse("streams_full", "too many requests wait; try again later");

@@ -115,6 +115,17 @@ std::string idempotency_key(const http::Request& request) {
 
 }  // namespace
 
+Submission read_submission_with_model(const http::Request& request, AssetStore& assets,
+                                      const BlobStore& blobs) {
+    Submission submission = read_submission(request);
+    if (submission.asset.empty()) return submission;
+    if (!assets.find(request.principal, submission.asset))
+        throw api::Refusal("asset_not_found", "there is no asset " + submission.asset.substr(0, 80))
+            .in_content();
+    submission.make_model(blobs.read(submission.asset));
+    return submission;
+}
+
 Submission submission_of(api::JsonSubmission json, const std::string& pointer) {
     Submission submission;
     submission.make_model(std::move(json.model));

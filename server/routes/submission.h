@@ -21,6 +21,10 @@ void check_scope(const http::Request& request, const Submission& submission);
 /// Throws: api::Refusal, api::InvalidRequest.
 [[nodiscard]] Submission read_submission(const http::Request& request);
 
+/// The same with the model's bytes, an asset's too. Throws also StoreError.
+[[nodiscard]] Submission read_submission_with_model(const http::Request& request,
+                                                    AssetStore& assets, const BlobStore& blobs);
+
 /// `pointer`: where in the body it stands. Throws as above.
 [[nodiscard]] Submission submission_of(api::JsonSubmission json, const std::string& pointer = "");
 

@@ -9,14 +9,7 @@ namespace {
 
 http::Response validate(const ValidateServices& service, const http::Request& request) {
     if (service.draining) api::refuse("draining", "the service is ending; try again later");
-    Submission submission = read_submission(request);
-    if (!submission.asset.empty()) {
-        if (!service.assets.find(request.principal, submission.asset))
-            throw api::Refusal("asset_not_found",
-                               "there is no asset " + submission.asset.substr(0, 80))
-                .in_content();
-        submission.make_model(service.blobs.read(submission.asset));
-    }
+    Submission submission = read_submission_with_model(request, service.assets, service.blobs);
     return json_response(
         200, service.tasks.report(request, Task::inspect, submission.model, submission.request));
 }

@@ -57,7 +57,7 @@ std::string LiveSession::ask(SessionAsk ask) {
     {
         const std::scoped_lock in_order(sending_);
         ask.number = ++number_;
-        send(to_line(ask));
+        send(to_bytes(ask));
     }
     return wait_for(ask.number);
 }
@@ -100,11 +100,11 @@ std::string LiveSession::wait_for(std::uint64_t number) {
 }
 
 /// A pipe holds 64 KiB; its reader does nothing but read.
-void LiveSession::send(std::string_view line) {
+void LiveSession::send(std::string_view bytes) {
     const auto deadline = Clock::now() + time_;
-    while (!line.empty()) {
-        const ssize_t written = ::write(asks_.to.fd(), line.data(), line.size());
-        if (written > 0) line.remove_prefix(static_cast<std::size_t>(written));
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(asks_.to.fd(), bytes.data(), bytes.size());
+        if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
         if (written >= 0 || errno == EINTR) continue;
         if (errno != EAGAIN || Clock::now() > deadline || is_over())
             return end("its process does not listen any more");

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "server/protocol/session_messages.h"
@@ -37,7 +38,7 @@ public:
 
 private:
     [[nodiscard]] std::string wait_for(std::uint64_t number);
-    void send(std::string_view line);
+    void send(std::string_view bytes);
     void follow();
 
     const std::chrono::milliseconds time_;

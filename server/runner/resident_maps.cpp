@@ -37,14 +37,18 @@ std::shared_ptr<LiveSession> ResidentMaps::open(const std::string& digest,
 std::string ResidentMaps::map(const std::string& digest,
                               const std::function<std::string()>& pattern,
                               const std::string& request) {
-    try {
-        auto live = find(digest);
-        if (!live) live = open(digest, pattern);
-        return live->ask({0, AskKind::map, 0, false, request});
-    } catch (const api::Refusal& refusal) {
-        if (refusal.problem().code.word() != "session_lost") throw;
-        api::refuse("worker_crashed", "the program broke on this pattern; the service goes on");
+    constexpr int attempts = 2;  // others may need its place just when it is asked
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+        try {
+            auto live = find(digest);
+            if (!live) live = open(digest, pattern);
+            return live->ask({0, AskKind::map, 0, false, request});
+        } catch (const api::Refusal& refusal) {
+            const std::string_view code = refusal.problem().code.word();
+            if (code != "session_lost" && code != "session_not_found") throw;
+        }
     }
+    api::refuse("worker_crashed", "the program broke on this pattern; the service goes on");
 }
 
 }  // namespace lastflat::server

@@ -17,7 +17,7 @@
 #include "core/session/session.h"
 #include "server/protocol/session_messages.h"
 #include "server/support/version.h"
-#include "server/worker/map_job.h"
+#include "server/worker/map_points.h"
 
 namespace lastflat::server {
 namespace {
@@ -38,7 +38,7 @@ class Asks {
 public:
     /// Until standard input ends; then the process does.
     void read() {
-        for (std::string line; std::getline(std::cin, line);) add(session_ask_of(line));
+        while (auto ask = read_session_ask(std::cin)) add(std::move(*ask));
         std::_Exit(0);
     }
 

@@ -68,6 +68,7 @@ def walk_sessions(walk, example):
     patch(422, "invalid_request", 6, {"weights": {"strech": 3.0}})
     patch(422, "curve_invalid", 7, {"cuts": ["nothing"]})
     patch(422, "invalid_request", 8, [])
+    patch(422, "invalid_request", 9, {}, body=b'{"tag": "\xff"}')
     patch(415, "media_type_unsupported", 9, {}, headers=["Content-Type: text/plain"])
     patch(400, "parameter_invalid", "first", {})
     made = walk.expect(202, None, "POST", "/v1/sessions/{id}/job", id=id)

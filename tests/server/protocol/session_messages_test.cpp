@@ -2,19 +2,22 @@
 
 #include <doctest/doctest.h>
 
+#include <sstream>
+
 namespace lastflat::server {
 
 TEST_SUITE("server/session_messages") {
-    TEST_CASE("an ask comes back from its line") {
-        const SessionAsk ask{7, AskKind::change, 41, true, "{\"tag\": \"a\nb\"}"};
-        const std::string line = to_line(ask);
-        CHECK(line.find('\n') == line.size() - 1);
-        const SessionAsk read = session_ask_of(line);
+    TEST_CASE("an ask comes back as it was, whatever bytes its text has") {
+        const SessionAsk ask{7, AskKind::change, 41, true, "{\"tag\": \"a\n\xff\"}"};
+        std::istringstream sent(to_bytes(ask) + to_bytes(SessionAsk{8}));
+        const SessionAsk read = read_session_ask(sent).value();
         CHECK(read.number == 7);
         CHECK(read.kind == AskKind::change);
         CHECK(read.sequence == 41);
         CHECK(read.points);
         CHECK(read.text == ask.text);
+        CHECK(read_session_ask(sent).value().number == 8);
+        CHECK_FALSE(read_session_ask(sent).has_value());
     }
 
     TEST_CASE("answers are taken one after the other, each once it is whole") {

@@ -1,4 +1,4 @@
-#include "server/worker/map_job.h"
+#include "server/worker/map_points.h"
 
 #include <algorithm>
 #include <cmath>
