@@ -170,6 +170,7 @@ void Session::solve_regions(State& state, const State* before, Progress& progres
 
 std::unique_ptr<Session::State> Session::begun(ShownApart asked, std::shared_ptr<Model> model,
                                                const State* before, Progress& progress) const {
+    Stopwatch total, lap;
     auto state = std::make_unique<State>();
     state->asked = std::move(asked);
     state->model = std::move(model);
@@ -178,8 +179,12 @@ std::unique_ptr<Session::State> Session::begun(ShownApart asked, std::shared_ptr
     state->lines = locate_more_curves(state->model->search, surface, {}, plan.request.curves,
                                       plan.request.points);
     state->prepared = prepare(surface, std::move(plan), progress);
+    Timing timing{0.0, lap.lap()};
     progress.reach(Stage::parameterize, 0.3, 0.9);
     solve_regions(*state, before, progress);
+    timing.constrain_ms = lap.lap();  // with the starts and the measures
+    timing.total_ms = total.lap();
+    state->result.timing = timing;
     state->map = std::make_shared<PatternMap>(pieces_of(state->result));
     show(*state, shown_lines(*state, state->asked));
     return state;

@@ -49,6 +49,13 @@ def read_points(content):
     return revision, changed, charts, lines
 
 
+def fit_for(method, path):
+    """What a request needs to come as far as its session."""
+    if method == "PATCH":
+        return {"query": "?sequence=1", "headers": MERGE, "body": b"{}"}
+    return {"headers": JSON, "body": b"{}"} if path.endswith("/map") else {}
+
+
 def walk_sessions(walk, example):
     """Opened, changed, looked at, made a job, closed; and one whose process is killed."""
     body = json.dumps(example).encode()
@@ -100,10 +107,7 @@ def walk_sessions(walk, example):
     walk.expect(204, None, "DELETE", "/v1/sessions/{id}", id=id)
     for method, path, operation in walk.contract.operations():
         if path.startswith("/v1/sessions/{id}") and "404" in operation["responses"]:
-            more = {"query": "?sequence=1", "headers": MERGE, "body": b"{}"} if method == "PATCH" else {}
-            if path.endswith("/map"):
-                more = {"headers": JSON, "body": b"{}"}
-            walk.expect(404, "session_not_found" if method != "HEAD" else None, method, path, id=id, **more)
+            walk.expect(404, "session_not_found" if method != "HEAD" else None, method, path, id=id, **fit_for(method, path))
     walk.expect(422, "unreadable_model", "POST", "/v1/sessions", body=b"hello")
     walk.expect(415, "unsupported_model", "POST", "/v1/sessions", body=b"PK\x03\x04")
     walk_lost(walk, body)
@@ -117,10 +121,7 @@ def walk_lost(walk, body):
     eventually(10, lambda: walk.ask("GET", "/v1/sessions/{id}", id=id), lambda answer: answer[0] == 410)
     for method, path, operation in walk.contract.operations():
         if path.startswith("/v1/sessions/{id}") and "410" in operation["responses"]:
-            more = {"query": "?sequence=1", "headers": MERGE, "body": b"{}"} if method == "PATCH" else {}
-            if path.endswith("/map"):
-                more = {"headers": JSON, "body": b"{}"}
-            walk.expect(410, "session_lost" if method != "HEAD" else None, method, path, id=id, **more)
+            walk.expect(410, "session_lost" if method != "HEAD" else None, method, path, id=id, **fit_for(method, path))
     walk.expect(204, None, "DELETE", "/v1/sessions/{id}", id=id)
 
 

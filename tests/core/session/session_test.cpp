@@ -12,6 +12,14 @@
 namespace lastflat {
 namespace {
 
+/// A pin where the vertex lies now.
+Constraint pin(const FlattenResult& pattern, std::size_t at_border) {
+    const FlatRegion& flat = pattern.regions[0];
+    const Index v = flat.region.border[at_border];
+    const auto id = pattern.sources.file_vertex(flat.region.source_vertices[at(v)]);
+    return {Pin{id.value(), flat.chart.uv[at(v)], flat.region.name}};
+}
+
 struct Opened {
     SampleLast last = make_sample_last();
     FlattenOptions options = test::sample_options(last);
@@ -20,21 +28,13 @@ struct Opened {
 
     Reach change() { return session.change(options.request, progress); }
     [[nodiscard]] const FlatRegion& lateral() const { return session.pattern().regions[0]; }
-    /// On the surface: the middle of a triangle of a region.
-    [[nodiscard]] Vec3 on(std::size_t region, std::size_t triangle) const {
-        const Region& r = session.pattern().regions[region].region;
-        const Triangle& t = r.triangles[triangle];
-        return (r.position(t[0]) + r.position(t[1]) + r.position(t[2])) / 3.0;
+    /// Where they lie; the next change tells the session.
+    void pin_two() {
+        const std::size_t border = lateral().region.border.size();
+        for (const std::size_t share : {1u, 3u})
+            options.request.constraints.push_back(pin(session.pattern(), border * share / 8));
     }
 };
-
-/// A pin where the vertex lies now.
-Constraint pin(const FlattenResult& pattern, std::size_t at_border) {
-    const FlatRegion& flat = pattern.regions[0];
-    const Index v = flat.region.border[at_border];
-    const auto id = pattern.sources.file_vertex(flat.region.source_vertices[at(v)]);
-    return {Pin{id.value(), flat.chart.uv[at(v)], flat.region.name}};
-}
 
 const std::vector<Index>& vertices_of(const SampleLast& last, const std::string& curve) {
     return std::find_if(last.curves.begin(), last.curves.end(),
@@ -70,9 +70,7 @@ TEST_SUITE("core/session") {
     TEST_CASE("a dragged pin ends where a job puts it, in few steps") {
         Opened opened;
         auto& constraints = opened.options.request.constraints;
-        const std::size_t border = opened.lateral().region.border.size();
-        for (const std::size_t share : {1u, 3u})
-            constraints.push_back(pin(opened.session.pattern(), border * share / 8));
+        opened.pin_two();
         CHECK(opened.change() == Reach::pattern);
         for (int step = 0; step < 5; ++step) {
             std::get<Pin>(constraints.back().demand).at += Vec2(0.0, 0.2);
@@ -86,9 +84,7 @@ TEST_SUITE("core/session") {
     TEST_CASE("once it has settled, the next change is as near as with a factor of its own") {
         Opened opened;
         auto& constraints = opened.options.request.constraints;
-        const std::size_t border = opened.lateral().region.border.size();
-        for (const std::size_t share : {1u, 3u})
-            constraints.push_back(pin(opened.session.pattern(), border * share / 8));
+        opened.pin_two();
         opened.change();
         int unsettled = 0, settled = 0, canceled_ones = 0;
         Progress canceled;
